@@ -128,6 +128,14 @@ SHARED_ALWAYS_INLINE int rayCellAfter(float t, bool comesFirst, ivec2 lowEnd, ve
     return at;
 }
 
+// From one cell to another, and back. The ends of the numbers meet: a ray may leave the world.
+SHARED_ALWAYS_INLINE int rayDistance(int from, int to) {
+    return int(uint(to) - uint(from));
+}
+SHARED_ALWAYS_INLINE int rayCellAt(int from, int distance) {
+    return int(uint(from) + uint(distance));
+}
+
 // Leaves a box of cells that are passed without a look, and enters the cell behind it. `end`: the planes
 // where the box ends, mirrored, each beyond the cell of the place. Branches are faster here than selections:
 // the next box is looked up while the CPU still compares.
@@ -135,9 +143,9 @@ SHARED_ALWAYS_INLINE void rayLeaveBox(SHARED_REF(Ray) ray, SHARED_INOUT(RayPlace
     vec4 alongX = vec4(ray.start.x, ray.direction.x, ray.inverse.x, 0.0f);
     vec4 alongY = vec4(ray.start.y, ray.direction.y, ray.inverse.y, 0.0f);
     vec4 alongZ = vec4(ray.start.z, ray.direction.z, ray.inverse.z, 0.0f);
-    ivec2 x = ivec2(place.cell.x - ray.cell.x, end.x - ray.cell.x);
-    ivec2 y = ivec2(place.cell.y - ray.cell.y, end.y - ray.cell.y);
-    ivec2 z = ivec2(place.cell.z - ray.cell.z, end.z - ray.cell.z);
+    ivec2 x = ivec2(rayDistance(ray.cell.x, place.cell.x), rayDistance(ray.cell.x, end.x));
+    ivec2 y = ivec2(rayDistance(ray.cell.y, place.cell.y), rayDistance(ray.cell.y, end.y));
+    ivec2 z = ivec2(rayDistance(ray.cell.z, place.cell.z), rayDistance(ray.cell.z, end.z));
     float tX = rayPlaneT(x.y, ray.start.x, ray.inverse.x);
     float tY = rayPlaneT(y.y, ray.start.y, ray.inverse.y);
     float tZ = rayPlaneT(z.y, ray.start.z, ray.inverse.z);
@@ -145,19 +153,19 @@ SHARED_ALWAYS_INLINE void rayLeaveBox(SHARED_REF(Ray) ray, SHARED_INOUT(RayPlace
         place.t = tX;
         place.axis = 0;
         place.cell.x = end.x;
-        place.cell.y = ray.cell.y + rayCellAfter(tX, false, y, alongY);
-        place.cell.z = ray.cell.z + rayCellAfter(tX, false, z, alongZ);
+        place.cell.y = rayCellAt(ray.cell.y, rayCellAfter(tX, false, y, alongY));
+        place.cell.z = rayCellAt(ray.cell.z, rayCellAfter(tX, false, z, alongZ));
     } else if (tY <= tZ) {
         place.t = tY;
         place.axis = 1;
-        place.cell.x = ray.cell.x + rayCellAfter(tY, true, x, alongX);
+        place.cell.x = rayCellAt(ray.cell.x, rayCellAfter(tY, true, x, alongX));
         place.cell.y = end.y;
-        place.cell.z = ray.cell.z + rayCellAfter(tY, false, z, alongZ);
+        place.cell.z = rayCellAt(ray.cell.z, rayCellAfter(tY, false, z, alongZ));
     } else {
         place.t = tZ;
         place.axis = 2;
-        place.cell.x = ray.cell.x + rayCellAfter(tZ, true, x, alongX);
-        place.cell.y = ray.cell.y + rayCellAfter(tZ, true, y, alongY);
+        place.cell.x = rayCellAt(ray.cell.x, rayCellAfter(tZ, true, x, alongX));
+        place.cell.y = rayCellAt(ray.cell.y, rayCellAfter(tZ, true, y, alongY));
         place.cell.z = end.z;
     }
 }
@@ -169,13 +177,13 @@ SHARED_ALWAYS_INLINE Ray rayFromFace(SHARED_REF(Ray) ray, SHARED_REF(RayHit) hit
     vec4 inCell = vec4(0.0f);
     for (int a = 0; a < 3; ++a) {
         SHARED_PRECISE float moved = hit.t * ray.direction[a];
-        SHARED_PRECISE float at = (ray.start[a] + moved) - float(cell[a] - ray.cell[a]);
+        SHARED_PRECISE float at = (ray.start[a] + moved) - float(rayDistance(ray.cell[a], cell[a]));
         at = at < 0.0f ? 0.0f : at > 1.0f ? 1.0f : at;
         if (a == axis) at = 1.0f;
         SHARED_PRECISE float opposite = 1.0f - at;
         inCell[a] = ray.mirror[a] != 0 ? opposite : at;
     }
-    cell[axis] -= 1;
+    cell[axis] = rayCellAt(cell[axis], -1);
     return makeRay(cell ^ ray.mirror, inCell, direction, end);
 }
 

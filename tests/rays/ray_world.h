@@ -58,14 +58,13 @@ inline world::Chunk randomChunk(world::Heights heights, std::mt19937& random) {
 }
 
 // Chunks around the center, a ring of tiles of each level around these, and places that nothing covers.
-inline RayWorld randomWorld(std::mt19937& random, int levels) {
+inline RayWorld worldAround(world::ChunkPos center, std::mt19937& random, int levels) {
     RayWorld made;
     made.levels = levels;
-    const auto anywhere = [&] { return static_cast<std::int32_t>(random() % 2000) - 1000; };
-    made.center = {anywhere(), anywhere()};
+    made.center = center;
     const auto divide = [&](auto& self, world::ChunkPos tile) -> void {
         const world::ChunkPos middle{made.center.x >> tile.level, made.center.y >> tile.level, tile.level};
-        if (random() % 12 == 0) return;
+        if (random() % 12 == 0 || !world::isInWorld(tile)) return;
         if (tile.level == 0 || world::chunkDistance(tile, middle) > 1) {
             made.tiles.emplace(tile, randomChunk(made.heights, random));
             return;
@@ -79,6 +78,12 @@ inline RayWorld randomWorld(std::mt19937& random, int levels) {
          world::chunksWithin({made.center.x >> top, made.center.y >> top, top}, 2))
         divide(divide, tile);
     return made;
+}
+
+inline RayWorld randomWorld(std::mt19937& random, int levels) {
+    const auto anywhere = [&] { return static_cast<std::int32_t>(random() % 2000) - 1000; };
+    const std::int32_t x = anywhere(), y = anywhere();
+    return worldAround({x, y}, random, levels);
 }
 
 // Anywhere in the middle of the world, in any direction: also along axes, along diagonals, from edges of
@@ -109,7 +114,8 @@ inline shared::Ray randomRay(const RayWorld& made, std::mt19937& random) {
         return kind < 4 ? places[kind] : std::ldexp(static_cast<float>(within(0, 1 << 24)), -24);
     };
     const int reach = 40;
-    const glm::ivec4 cell{made.center.x * 16 + within(-reach, reach),
+    const int inside = 16 * (made.center.x == world::kMaxChunk ? -3 : 0);  // not beyond the edge of the world
+    const glm::ivec4 cell{made.center.x * 16 + inside + within(-reach, reach),
                           made.center.y * 16 + within(-reach, reach),
                           within(made.heights.bottom - 8, made.heights.top + 8), 0};
     const float end = random() % 4 == 0 ? static_cast<float>(within(0, 200)) : 1e9f;
@@ -140,7 +146,7 @@ inline shared::RayHit slowCast(const RayWorld& made, const Scene& scene, const s
     glm::ivec3 passed(0);
     int axis = shared::kRayBegins;
     for (float t = 0; t <= ray.start.w;) {
-        const glm::ivec4 mirrored{ray.cell.x + passed.x, ray.cell.y + passed.y, ray.cell.z + passed.z, 0};
+        const glm::ivec4 mirrored(glm::uvec4(ray.cell) + glm::uvec4(glm::uvec3(passed), 0));
         const glm::ivec4 cell = mirrored ^ ray.mirror;
         const int level = stopAt(made, scene, cell);
         if (level == -2) return hit;

@@ -49,6 +49,15 @@ TEST(SceneTest, RaysEqualASlowWalkToTheBit) {
     EXPECT_LT(hits, worlds * rays * 9 / 10);
 }
 
+// Rays leave the world there; nothing comes back in at the other end.
+TEST(SceneTest, RaysLeaveTheWorldAtItsEdge) {
+    std::mt19937 random(5);
+    for (int k = 0; k < 6; ++k) {
+        const RayWorld made = worldAround({world::kMaxChunk, world::kMinChunk + 3}, random, 1 + k % 3);
+        EXPECT_GT(compareRays(made, made.scene(), 20'000, random), 2'000);
+    }
+}
+
 // The cells of a scene, wherever its words are: for each level the window, what each entry is, and the
 // sections of tiles.
 std::vector<shared::uint> cellsOf(const Scene& scene) {
