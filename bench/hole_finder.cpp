@@ -137,8 +137,7 @@ RayEnd ShownBlocks::cast(const glm::dvec3& origin, const glm::dvec3& direction, 
                 shift = 0;
             }
         }
-        const glm::ivec4 widths(column + shift, column + shift, shift, 0);
-        shared::rayLeaveBox(ray, place, ((place.cell >> widths) + 1) << widths);
+        shared::rayLeaveBox(ray, place, shared::rayBoxEnd(place.cell, column + shift, shift));
     }
     return end;
 }

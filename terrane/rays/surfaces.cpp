@@ -176,8 +176,7 @@ void forEachSurface(const SurfaceScene& scene, const Ray& ray,
         std::stable_sort(surfaces.begin(), surfaces.end(),
                          [](const Surface& a, const Surface& b) { return a.t < b.t; });
         if (std::any_of(surfaces.begin(), surfaces.end(), use)) return;
-        const glm::ivec4 widths(hit.level, hit.level, 0, 0);
-        shared::rayLeaveBox(ray, place, ((place.cell >> widths) + 1) << widths);
+        shared::rayLeaveBox(ray, place, shared::rayBoxEnd(place.cell, hit.level, 0));
     }
 }
 

@@ -73,7 +73,7 @@ SHARED_ALWAYS_INLINE RayColumn rayColumnAt(RayWords rays, SHARED_REF(Ray) ray, i
     int shift = 4 + asked;
     int endZ = z < bottom ? bottom : top;
     if (isDown) endZ = isAbove ? -rayTopOf(column.heights) : -bottom;
-    column.end = ivec4(((cell.x >> shift) + 1) << shift, ((cell.y >> shift) + 1) << shift, endZ, 0);
+    column.end = ivec4(rayPlaneBehind(cell.x, shift), rayPlaneBehind(cell.y, shift), endZ, 0);
     column.state = isGone ? kRayGone : isAbove || !isCovered || z < bottom ? kRaySkip : kRayInside;
     return column;
 }
@@ -126,10 +126,7 @@ SHARED_ALWAYS_INLINE RayHit castRayFrom(RayWords rays, SHARED_REF(Ray) ray, SHAR
                 if ((bits >> (bit & 0xAu) & kRayOctant) == 0u) shift += 1;
             }
             if (isStopped) break;
-            int wide = level + shift;
-            rayLeaveBox(ray, place,
-                        ivec4(((cell.x >> wide) + 1) << wide, ((cell.y >> wide) + 1) << wide,
-                              ((cell.z >> shift) + 1) << shift, 0));
+            rayLeaveBox(ray, place, rayBoxEnd(cell, level + shift, shift));
             if (!(place.t <= ray.start.w)) break;
             if (((place.cell.x ^ cell.x) | (place.cell.y ^ cell.y)) >> (4 + level) != 0) break;
             z = place.cell.z ^ ray.mirror.z;

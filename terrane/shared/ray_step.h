@@ -136,6 +136,15 @@ SHARED_ALWAYS_INLINE int rayCellAt(int from, int distance) {
     return int(uint(from) + uint(distance));
 }
 
+// The planes where the box of 2^bits cells ends that has a cell in it.
+SHARED_ALWAYS_INLINE int rayPlaneBehind(int cell, int bits) {
+    return int((uint(cell >> bits) + 1u) << bits);
+}
+SHARED_ALWAYS_INLINE ivec4 rayBoxEnd(ivec4 cell, int bitsXY, int bitsZ) {
+    return ivec4(rayPlaneBehind(cell.x, bitsXY), rayPlaneBehind(cell.y, bitsXY),
+                 rayPlaneBehind(cell.z, bitsZ), 0);
+}
+
 // Leaves a box of cells that are passed without a look, and enters the cell behind it. `end`: the planes
 // where the box ends, mirrored, each beyond the cell of the place. Branches are faster here than selections:
 // the next box is looked up while the CPU still compares.
