@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "terrane/shared/ray_step.h"
 #include "terrane/stream/tile_pipeline.h"
 #include "terrane/world/sky/environment.h"
 
@@ -19,10 +20,6 @@ constexpr std::array<float, 3> kFogDistances = {128, 2048, 32768};
 constexpr double kMostBlocks = 30'000;
 // Blocks that are equal, beside a share of the distance: quads are moved by less.
 constexpr double kTolerance = 0.75, kRelativeTolerance = 0.01;
-
-struct Interval {
-    double low = kNothing, high = kNothing;
-};
 
 // Of some rays.
 struct Range {
@@ -52,10 +49,12 @@ bool isOpaque(const world::BlockRegistry& blocks, world::BlockId id) {
     return id != world::kAir && blocks.type(id).opaqueCube;
 }
 
-// Distances of the pixels, by y from above, then x.
-std::vector<Interval> drawDistances(render::Renderer& renderer, const render::Camera& camera) {
+}  // namespace
+
+std::vector<Interval> drawnDistances(render::Renderer& renderer, const render::Camera& camera,
+                                     std::span<const float> fogDistances) {
     std::vector<Interval> distances;
-    for (const float fog : kFogDistances) {
+    for (const float fog : fogDistances) {
         renderer.draw({camera, world::environmentAt(0.5f), fog, 0, render::View::Depth});
         const base::Image image = renderer.readImage();
         distances.resize(image.rgba.size() / 4);
@@ -68,7 +67,17 @@ std::vector<Interval> drawDistances(render::Renderer& renderer, const render::Ca
     return distances;
 }
 
-}  // namespace
+PixelRays::PixelRays(const render::Camera& camera, glm::ivec2 size)
+    : look_(render::lookDirection(camera)),
+      right_(render::rightDirection(camera)),
+      up_(glm::cross(right_, look_)),
+      size_(size),
+      scale_(std::tan(glm::radians(double{camera.fieldOfView}) / 2) * 2 / size.y) {}
+
+glm::dvec3 PixelRays::at(double x, double y) const {
+    return glm::normalize(look_ + right_ * (scale_ * (x + 0.5 - size_.x / 2)) +
+                          up_ * (scale_ * (size_.y / 2 - y - 0.5)));
+}
 
 const world::Chunk& ShownBlocks::whole(ChunkPos pos) {
     const auto found = whole_.find(pos);
@@ -79,10 +88,9 @@ const world::Chunk& ShownBlocks::whole(ChunkPos pos) {
     return whole_.emplace(pos, std::move(chunk)).first->second;
 }
 
-ShownBlocks::Area ShownBlocks::areaAt(double x, double y) {
+ShownBlocks::Area ShownBlocks::areaAt(int x, int y) {
     const auto& records = session_.tiles().table().records;
-    const auto chunkAlong = [](double v) { return static_cast<std::int32_t>(std::floor(v / 16)); };
-    ChunkPos pos{chunkAlong(x), chunkAlong(y)};
+    ChunkPos pos{x >> 4, y >> 4};
     for (;; pos = stream::parentOf(pos)) {
         const auto found = records.find(pos);
         if (found != records.end() && found->second.isShown) break;
@@ -96,51 +104,40 @@ ShownBlocks::Area ShownBlocks::areaAt(double x, double y) {
 
 RayEnd ShownBlocks::cast(const glm::dvec3& origin, const glm::dvec3& direction, double mostBlocks) {
     const world::Heights heights = session_.world().heights();
+    const glm::dvec3 corner = glm::floor(origin);
+    const shared::Ray ray = shared::makeRay(glm::ivec4(corner, 0), glm::vec4(origin - corner, 0),
+                                            glm::vec4(direction, 0), static_cast<float>(mostBlocks));
     RayEnd end{kNothing, kNothing};
     Area area;
-    glm::dvec2 areaLow(0), areaHigh(-1);
+    glm::ivec2 areaCorner(0);
+    int areaShift = -1;  // its width is 2^areaShift blocks
     // A box of equal blocks after the other: a block, or a section that is all air.
-    for (double distance = 0; distance < mostBlocks;) {
-        const glm::dvec3 at = origin + direction * (distance + 1e-7);
-        if ((at.z < heights.bottom && direction.z <= 0) || (at.z >= heights.top && direction.z >= 0)) break;
-        if (at.x < areaLow.x || at.y < areaLow.y || at.x >= areaHigh.x || at.y >= areaHigh.y) {
+    for (shared::RayPlace place = shared::rayBegin(ray); place.t < ray.start.w;) {
+        const glm::ivec3 at = place.cell ^ ray.mirror;
+        if (ray.mirror.z != 0 ? at.z < heights.bottom : at.z >= heights.top) break;
+        if (areaShift < 0 || glm::ivec2(at) >> areaShift != areaCorner) {
             area = areaAt(at.x, at.y);
-            const double side = area.whole ? 16.0 * (1 << area.pos.level) : 16;
-            areaLow = glm::floor(glm::dvec2(at) / side) * side;
-            areaHigh = areaLow + side;
+            areaShift = 4 + (area.whole ? area.pos.level : 0);
+            areaCorner = glm::ivec2(at) >> areaShift;
         }
-        const double column = area.whole ? 1 << area.pos.level : 1;
-        glm::dvec3 low{areaLow, std::floor(at.z / 16) * 16}, high{areaHigh, low.z + 16};
-        if (at.z < heights.bottom) {
-            high.z = heights.bottom;
-            low.z = -kNothing;
-        } else if (at.z >= heights.top) {
-            low.z = heights.top;
-            high.z = kNothing;
-        } else if (area.whole) {
-            const int number = static_cast<int>(std::floor(at.z / 16));
-            const world::Section& section = area.whole->section(number);
-            if (number < area.lowestMade) end.closed = std::min(end.closed, distance);
+        const int column = areaShift - 4;
+        int shift = 4;  // of the box
+        if (area.whole && heights.contains(at.z)) {
+            const world::Section& section = area.whole->section(at.z >> 4);
+            const double distance = place.t;
+            if (at.z >> 4 < area.lowestMade) end.closed = std::min(end.closed, distance);
             if (!section.isUniform() || isOpaque(session_.blocks(), section.uniformValue())) {
-                const glm::ivec3 cell{glm::floor((glm::dvec2(at) - areaLow) / column), std::floor(at.z)};
-                const world::BlockId id = area.whole->block(
-                    world::blockIndex(std::clamp(cell.x, 0, 15), std::clamp(cell.y, 0, 15), cell.z));
+                const world::BlockId id =
+                    area.whole->block(world::blockIndex(at.x >> column & 15, at.y >> column & 15, at.z));
                 if (isOpaque(session_.blocks(), id)) {
                     end.ground = distance;
                     end.closed = std::min(end.closed, distance);
                     return end;
                 }
-                low = {areaLow + glm::dvec2(cell) * column, cell.z};
-                high = {glm::dvec2(low) + column, cell.z + 1};
+                shift = 0;
             }
         }
-        double leave = kNothing;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (direction[axis] == 0) continue;
-            const double border = direction[axis] > 0 ? high[axis] : low[axis];
-            leave = std::min(leave, (border - origin[axis]) / direction[axis]);
-        }
-        distance = std::max(leave, distance + 1e-7);
+        shared::rayLeaveBox(ray, place, shared::rayBoxEnd(place.cell, column + shift, shift));
     }
     return end;
 }
@@ -194,21 +191,15 @@ HoleCount& HoleCount::operator+=(const HoleCount& other) {
 
 HoleCount findHoles(render::Renderer& renderer, ShownBlocks& blocks, const render::Camera& camera) {
     const glm::ivec2 size = renderer.size();
-    const std::vector<Interval> drawn = drawDistances(renderer, camera);
-    const double scale = std::tan(glm::radians(double{camera.fieldOfView}) / 2) * 2 / size.y;
-    const glm::dvec3 look = render::lookDirection(camera), right = render::rightDirection(camera);
-    const glm::dvec3 up = glm::cross(right, look);
-    const auto rayAt = [&](double x, double y) {
-        return glm::normalize(look + right * (scale * (x + 0.5 - size.x / 2.0)) +
-                              up * (scale * (size.y / 2.0 - y - 0.5)));
-    };
+    const std::vector<Interval> drawn = drawnDistances(renderer, camera, kFogDistances);
+    const PixelRays rays(camera, size);
     // With a ring of pixels around the image.
     const glm::ivec2 wide = size + 2;
     std::vector<RayEnd> ends(static_cast<std::size_t>(wide.x * wide.y));
     for (int y = 0; y < wide.y; ++y) {
         for (int x = 0; x < wide.x; ++x) {
             ends[static_cast<std::size_t>(x + y * wide.x)] =
-                blocks.cast(camera.position, rayAt(x - 1, y - 1), kMostBlocks);
+                blocks.cast(camera.position, rays.at(x - 1, y - 1), kMostBlocks);
         }
     }
     const auto near = [&](int x, int y) {
@@ -223,8 +214,8 @@ HoleCount findHoles(render::Renderer& renderer, ShownBlocks& blocks, const rende
         Range range;
         for (int dy = -kSteps; dy <= kSteps; ++dy)
             for (int dx = -kSteps; dx <= kSteps; ++dx)
-                range.add(blocks.cast(camera.position,
-                                      rayAt(x + dx / double{kSteps}, y + dy / double{kSteps}), kMostBlocks));
+                range.add(blocks.cast(
+                    camera.position, rays.at(x + dx / double{kSteps}, y + dy / double{kSteps}), kMostBlocks));
         return range;
     };
     HoleCount count;
@@ -242,7 +233,7 @@ HoleCount findHoles(render::Renderer& renderer, ShownBlocks& blocks, const rende
             count.closed += isClosed;
             count.walls += !isHole && !isClosed;
             if (!isClosed)
-                count.where.push_back({{x, y}, at.low, ground, camera.position + rayAt(x, y) * ground});
+                count.where.push_back({{x, y}, at.low, ground, camera.position + rays.at(x, y) * ground});
         }
     }
     return count;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <random>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -12,12 +13,35 @@
 
 namespace terrane::bench {
 
+constexpr double kNothing = 1e9;
+
+// What the depth of a pixel may be, in blocks from the camera; kNothing if nothing is drawn there.
+struct Interval {
+    double low = kNothing, high = kNothing;
+};
+
+// Draws images of depth with these distances of fog, ascending: a pixel has a 255th of the first that reaches
+// it. Pixels are by y from above, then x.
+std::vector<Interval> drawnDistances(render::Renderer& renderer, const render::Camera& camera,
+                                     std::span<const float> fogDistances);
+
+// The rays through the pixels of a camera's image; whole numbers are centers of pixels. Their length is 1.
+class PixelRays {
+  public:
+    PixelRays(const render::Camera& camera, glm::ivec2 size);
+    glm::dvec3 at(double x, double y) const;
+
+  private:
+    glm::dvec3 look_, right_, up_;
+    glm::dvec2 size_;
+    double scale_;
+};
+
 // Where a ray ends, in blocks from the camera; kNothing if it meets no opaque cube.
 struct RayEnd {
     double ground = 0;  // the first opaque cube of the generator
     double closed = 0;  // the first block that is not made yet, or the ground if that is nearer
 };
-constexpr double kNothing = 1e9;
 
 // The blocks on screen: of chunks and tiles that are shown, down to the bottom of the world, as they are
 // saved or generated. Edits come before the first call.
@@ -36,7 +60,7 @@ class ShownBlocks {
         const world::Chunk* whole = nullptr;
         int lowestMade = world::kLowestSection;
     };
-    Area areaAt(double x, double y);
+    Area areaAt(int x, int y);
 
     game::Session& session_;
     std::unordered_map<world::ChunkPos, world::Chunk, world::ChunkPosHash> whole_;

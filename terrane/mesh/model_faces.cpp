@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "terrane/mesh/cell_faces.h"
 #include "terrane/mesh/draw_bucket.h"
 #include "terrane/world/changes/liquid_flow.h"
 
@@ -50,8 +51,6 @@ namespace {
 
 using shared::uint;
 using world::Face;
-
-constexpr uint kHeightOfStill = shared::kFlowHeights - 1, kHeightOfFull = shared::kFlowHeights;
 
 bool mayFlow(const world::Section* states) {
     return states && (!states->isUniform() || !world::isLiquidSource(states->uniformValue()));

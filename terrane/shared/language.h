@@ -34,8 +34,12 @@ constexpr float uintBitsToFloat(uint v) {
 #define SHARED_FN constexpr
 // Functions that call others which are no constant expressions, such as min() of vectors.
 #define SHARED_INLINE inline
+// Functions of hot loops: compiled for the instruction set of the caller.
+#define SHARED_ALWAYS_INLINE [[gnu::always_inline]] inline
 // A large parameter that is read only.
 #define SHARED_REF(Type) const Type&
+// A parameter that the function changes.
+#define SHARED_INOUT(Type) Type&
 // On float variables whose bits must be the same everywhere: no contraction, no reordering.
 #define SHARED_PRECISE
 #define SHARED_BEGIN namespace terrane::shared {
@@ -45,7 +49,9 @@ constexpr float uintBitsToFloat(uint v) {
 
 #define SHARED_FN
 #define SHARED_INLINE
+#define SHARED_ALWAYS_INLINE
 #define SHARED_REF(Type) Type
+#define SHARED_INOUT(Type) inout Type
 #define SHARED_PRECISE precise
 #define SHARED_BEGIN
 #define SHARED_END

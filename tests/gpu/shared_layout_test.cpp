@@ -22,6 +22,8 @@
 #include "terrane/shared/mesher.h"
 #include "terrane/shared/packed_section.h"
 #include "terrane/shared/quad.h"
+#include "terrane/shared/ray_scene.h"
+#include "terrane/shared/ray_step.h"
 #include "terrane/shared/shadow.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/shared/tint.h"
@@ -329,10 +331,50 @@ std::vector<StructLayout> landLayouts() {
               {"unused", offsetof(ShadowDraw, unused)}}}};
 }
 
+std::vector<StructLayout> rayLayouts() {
+    using shared::Ray, shared::RayColumn, shared::RayHit, shared::RayPlace;
+    return {{"Ray",
+             "ray_step.h",
+             false,
+             sizeof(Ray),
+             {{"cell", offsetof(Ray, cell)},
+              {"mirror", offsetof(Ray, mirror)},
+              {"start", offsetof(Ray, start)},
+              {"direction", offsetof(Ray, direction)},
+              {"inverse", offsetof(Ray, inverse)}}},
+            {"RayPlace",
+             "ray_step.h",
+             false,
+             sizeof(RayPlace),
+             {{"cell", offsetof(RayPlace, cell)},
+              {"t", offsetof(RayPlace, t)},
+              {"axis", offsetof(RayPlace, axis)},
+              {"level", offsetof(RayPlace, level)},
+              {"unused", offsetof(RayPlace, unused)}}},
+            {"RayHit",
+             "ray_step.h",
+             false,
+             sizeof(RayHit),
+             {{"cell", offsetof(RayHit, cell)},
+              {"face", offsetof(RayHit, face)},
+              {"t", offsetof(RayHit, t)},
+              {"level", offsetof(RayHit, level)},
+              {"unused", offsetof(RayHit, unused)}}},
+            {"RayColumn",
+             "ray_scene.h",
+             false,
+             sizeof(RayColumn),
+             {{"state", offsetof(RayColumn, state)},
+              {"level", offsetof(RayColumn, level)},
+              {"words", offsetof(RayColumn, words)},
+              {"heights", offsetof(RayColumn, heights)},
+              {"end", offsetof(RayColumn, end)}}}};
+}
+
 std::vector<StructLayout> allLayouts() {
     std::vector<StructLayout> all;
     for (const auto& layouts : {frameLayouts(), meshSectionLayouts(), cullingLayouts(), mesherLayouts(),
-                                otherLayouts(), landLayouts()}) {
+                                otherLayouts(), landLayouts(), rayLayouts()}) {
         all.insert(all.end(), layouts.begin(), layouts.end());
     }
     return all;

@@ -19,8 +19,8 @@ constexpr int kMeshSectionHeights[] = {8, 16, 32, 64, 128};
 
 // Every visible face is covered once, no other face is.
 void expectExact(const MeshInput& input, const ChunkMesh& mesh) {
-    const std::vector<CellFace> expected = ReferenceFaces(input).find();
-    const std::vector<CellFace> covered = coveredFaces(mesh, testBlocks());
+    const std::vector<FaceNumber> expected = ReferenceFaces(input).find();
+    const std::vector<FaceNumber> covered = coveredFaces(mesh, testBlocks());
     if (expected == covered) return;
     const auto [e, c] = std::mismatch(expected.begin(), expected.end(), covered.begin(), covered.end());
     ADD_FAILURE() << "expected " << (e == expected.end() ? "no more" : describe(*e)) << ", covered "
@@ -192,7 +192,7 @@ TEST(ChunkMesher, FormOfSectionsDoesNotMatter) {
 
 TEST(ChunkMesher, MeshSectionHeightOnlyRegroups) {
     const Area area(randomBlocks(Mix::Terrain, 7));
-    const std::vector<CellFace> faces = coveredFaces(meshOf(area), testBlocks());
+    const std::vector<FaceNumber> faces = coveredFaces(meshOf(area), testBlocks());
     for (const int height : kMeshSectionHeights) {
         EXPECT_EQ(coveredFaces(meshOf(area, {.meshSectionHeight = height}), testBlocks()), faces);
     }
