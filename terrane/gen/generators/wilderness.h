@@ -101,6 +101,7 @@ struct Fields {
     Field<Float> base;      // z before gullies and rivers
     // The streams around, see ValleySample: blocks to them, z.
     Field<Float> fromStream, streamLevel;
+    Field<Float> sides;   // blocks a block that the sides of valleys rise here, but on divides
     Field<Float> height;  // z
     Field<Float> rocky;   // share: bare whatever its slope
     Field<Float> wet;     // share: in a river or lake, or on its bank

@@ -48,8 +48,13 @@ Float tableShare(Pass& p, const Fields& f, Float canyon) {
     return p.read(f.table) * (1.0f - canyon) * (1.0f - p.read(f.range));
 }
 
-// Blocks above the stream, `straight` blocks from the floor of its valley.
-Float slopeAbove(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& ice) {
+struct Side {
+    Float rise;   // blocks above the stream
+    Float steep;  // blocks a block that it rises, but where a divide cuts it off
+};
+
+// The side of a valley, `straight` blocks from its floor.
+Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& ice) {
     const Float range = p.read(f.range), hilly = p.read(f.hilly);
     // Spurs and hollows: no side is even, and no ridge as long as its stream.
     const Float spurs = p.simplex2D("spurs", 64, {.25f, .5f, 1.0f});
@@ -61,7 +66,10 @@ Float slopeAbove(Pass& p, const Fields& f, Float canyon, Float straight, const I
     const Float part = clamp(beside * ((varied - 0.1f) * (1.0f / kTableEdge)), 0.0f, 1.0f);
     const Float cliff = smoothstep(0.85f, 1.15f, varied);
     const Float edge = part * lerp(part * (3.0f - part * 2.0f), 2.0f - part, cliff);
-    Var<Float> rise = p.var(side + edge * tableShare(p, f, canyon) * kTableRise);
+    const Float edgeSteep = (1.0f - part) * lerp(part * 6.0f, Float(2.0f), cliff);
+    const Float table = tableShare(p, f, canyon) * kTableRise;
+    Var<Float> rise = p.var(side + edge * table);
+    const Float sides = steep + edgeSteep * table * (1.0f / kTableEdge);
     // A trough: steep walls, shoulders above them. Side valleys hang above the floor of the main one.
     p.if_(ice.share > 0.0f, [&] {
         const Float wall = smoothstep(0.0f, 75.0f, beside) * (ice.main * 90.0f + 70.0f);
@@ -76,7 +84,7 @@ Float slopeAbove(Pass& p, const Fields& f, Float canyon, Float straight, const I
         const Float walls = landforms::terraces(wall * 190.0f, 31.0f, 4.0f) + beside * 0.02f;
         rise = lerp(static_cast<Float>(rise), walls, canyon);
     });
-    return rise;
+    return {rise, min(sides, Float(1.1f)) * (1.0f - canyon)};
 }
 
 }  // namespace
@@ -104,7 +112,8 @@ void basePass(Pass& p, const Fields& f) {
     const Ice ice = iceOf(p, f, v.flow);
     const Float floorWidth = sqrt(v.flow) * (1.0f - range * 0.6f) * 3.0f + ice.share * ice.main * 24.0f;
     const Float beside = max(v.distance - floorWidth, Float(0.0f));
-    const Float slope = v.level + 1.6f + slopeAbove(p, f, canyon, beside, ice);
+    const Side side = sideOf(p, f, canyon, beside, ice);
+    const Float slope = v.level + 1.6f + side.rise;
     // Where there are no streams; beyond the columns that see them, the mean height of land between them.
     Float plain = kSea + 2.0f + land * 30.0f;
     if (p.step() > kMaxValleyStep)
@@ -133,6 +142,7 @@ void basePass(Pass& p, const Fields& f) {
     p.set(f.base, static_cast<Float>(ground));
     p.set(f.fromStream, v.distance);
     p.set(f.streamLevel, v.level);
+    p.set(f.sides, side.steep * smoothstep(kFarthest, kFar, v.distance));
     p.set(f.volcanic, volcano.share);
 }
 
@@ -164,10 +174,8 @@ Float karstTowers(Pass& p) {
 // The slope by which gullies are cut. Where a divide is flat across, between steep sides, gullies cross it as
 // they come: else it would stand above both sides like a dyke.
 Vec2 withCrests(Pass& p, const Fields& f, Vec2 slope, Float steep, Float beside) {
-    const Float part = clamp(p.read(f.fromStream) * (1.0f / kTableEdge), 0.0f, 1.0f);
-    const Float table = tableShare(p, f, p.read(f.canyon)) * part * (1.0f - part) * (6.0f * kTableRise / kTableEdge);
-    const Float expected = min(p.read(f.range) * 0.9f + p.read(f.hilly) * 0.17f + table, Float(1.1f));
-    const Float lack = max(expected - steep, Float(0.0f)) * beside;
+    const Float sides = p.read(f.sides);
+    const Float lack = smoothstep(0.55f, 0.15f, steep / max(sides, Float(0.01f))) * sides * beside;
     Var<Float> x = p.var(slope.x), y = p.var(slope.y);
     p.if_(lack > 0.0f, [&] {
         constexpr int kSize = 40;
@@ -204,11 +212,13 @@ Relief detailed(Pass& p, const Fields& f) {
     p.if_(strength > 0.0f, [&] {
         const Eroded gullies =
             erode(p, "gullies", fall, strength,
-                  {.size = 128, .octaves = 5, .depth = 0.36f, .fullSlope = 0.9f, .gain = 0.6f});
-        // They do not reach the level of the sea, nor that of the streams that they lead to.
-        const Float level = max(p.read(f.streamLevel), Float(kSea));
-        const Float lowest = max(lerp(level + 2.0f, base, 0.12f), Float(kSea + 1.6f));
-        height = max(height + gullies.height, min(base, lowest));
+                  {.size = 128, .octaves = 5, .depth = 0.42f, .fullSlope = 0.9f, .gain = 0.6f});
+        // They do not reach the level of the sea, nor that of the streams that they lead to: they are
+        // shallower where there is less room.
+        const Float lowest = max(p.read(f.streamLevel) + 1.0f, Float(kSea + 1.6f));
+        const Float room = max(height - lowest, Float(0.01f));
+        const Float share = gullies.height / room;
+        height = height + gullies.height / sqrt(share * share + 1.0f);
     });
     const Float craggy =
         (range * 0.5f + 0.5f) * smoothstep(0.5f, 1.1f, steep) * (1.0f - p.read(f.canyon)) * inland;
@@ -281,10 +291,10 @@ Water cut(Pass& p, const Fields& f, Float ground) {
         const Float bed = s.level - 0.6f - (1.0f - across * across) * (r.halfWidth * 0.3f + 0.8f) -
                           below * (s.fall * 0.16f + 1.0f);
         // Banks slope down to the pools, with rock on both sides of a fall, which holds the water before it.
-        const Float beside = smoothstep(0.5f, 0.8f, s.part), away = max(fromBank, Float(0.0f));
-        const Float slope = s.level + 1.3f + away * (rough * 0.4f + 0.9f) + beside * (s.fall + 4.0f);
+        const Float beside = smoothstep(0.75f, 0.96f, s.part), away = max(fromBank, Float(0.0f));
+        const Float slope = s.level + 0.8f + away * (rough * 0.4f + 0.7f) + beside * (s.fall + 4.0f);
         const Float lowered = lerp(ground, min(ground, slope), s.share * smoothstep(70.0f, 40.0f, away));
-        const Float bank = lerp(s.level + 1.3f, even + 1.3f + r.fall, lerp(Float(1.0f), beside, s.share));
+        const Float bank = lerp(s.level + 0.8f, even + 0.9f + r.fall, lerp(Float(1.0f), beside, s.share));
         // Water above the sea needs banks; at the sea's level the ground may be lower beside it.
         const Float raised = max(lowered, lerp(bank, lowered, smoothstep(0.0f, 14.0f, away)));
         const Float outside = lerp(ground, raised, clamp((s.level - kSea - 0.5f) * 2.0f, 0.0f, 1.0f));

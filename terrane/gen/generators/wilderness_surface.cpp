@@ -19,11 +19,14 @@ struct Site {
     Int surface;  // z of the highest ground block
 };
 
+constexpr int kMaxHeldStep = 4;  // wider columns are too far away for it
+
 // z of the highest ground block. Ground holds the water beside it: a column between two rivers, or a river and
 // a lake, belongs to one of them and does not know the other.
 Int heldSurface(Pass& p, const Fields& f) {
     const int step = p.step();
     const Int own = Int(floor(p.read(f.height)));
+    if (step > kMaxHeldStep) return own;
     Var<Int> held = p.var(own);
     p.if_(own >= p.read(f.water), [&] {
         Int highest = own;
@@ -187,11 +190,23 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const Bool isUnderWater =
         s.surface < p.read(f.water) && p.read(f.wet) > 0.0f && !p.read(f.isLava);
     const Block bottom = landforms::riverBed(p, patches, spots);
+    // Rivers and lakes leave sand and gravel beside them, in bars here and there.
+    const Bool isBank = p.read(f.wet) > 0.75f - patches * 0.35f && s.steepness < 2.2f && !isUnderWater &&
+                        biome != number(Biome::Ocean);
+    const Bool isBar = spots + patches > 0.1f;
+    const Block bank = multiSelect({{!isBar, select(isBare, p.block("gravel"), top)},
+                                    {s.cold < -0.1f || p.read(f.range) > 0.2f, p.block("gravel")},
+                                    {p.read(f.moisture) > 0.2f, p.block("mud")}},
+                                   p.block("sand"));
+    const Bool isGravelly = isBar || isBare;
     return {multiSelect({{isUnderWater, bottom},
+                         {isBank, bank},
                          {isBare && !keepsSnow, rock},
                          {isScree && !keepsSnow, p.block("gravel")}},
                         top),
-            multiSelect({{isUnderWater, bottom}, {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil),
+            multiSelect({{isUnderWater, bottom},
+                         {isBank, select(isGravelly, p.block("gravel"), p.block("dirt"))},
+                         {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil),
             rock};
 }
 

@@ -59,11 +59,11 @@ Float flanksOf(Pass& p, const Volcano& volcano) {
     // Tongues of lava run down: waves around the cone, broken by noise, with steep edges and flat tops.
     const Float inverse = 1.0f / max(sqrt(volcano.toX * volcano.toX + volcano.toY * volcano.toY), Float(1.0f));
     const Vec2 around = {-volcano.toY * inverse, volcano.toX * inverse};
-    const Float broken = p.simplex2D("lava tongues", 96, {.3f, .6f, 1.0f});
-    const Float old = p.stripes2D("old lava tongues", 420, around).cosine + broken * 0.7f;
-    const Float young = p.stripes2D("young lava tongues", 230, around).cosine + broken * 0.9f;
+    const Float broken = p.simplex2D("lava tongues", 64, {.2f, .5f, 1.0f});
+    const Float old = p.stripes2D("old lava tongues", 420, around).cosine + broken * 0.5f;
+    const Float young = p.stripes2D("young lava tongues", 230, around).cosine + broken * 0.5f;
     const Float foot = smoothstep(0.0f, 0.06f, share) * smoothstep(0.7f, 0.4f, share);
-    const Float tongues = smoothstep(0.25f, 0.5f, old) * 14.0f + smoothstep(0.75f, 0.95f, young) * 9.0f;
+    const Float tongues = smoothstep(0.2f, 0.7f, old) * 15.0f + smoothstep(0.55f, 0.95f, young) * 10.0f;
     return tongues * foot + cinderCones(p, share);
 }
 
