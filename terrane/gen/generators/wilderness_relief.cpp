@@ -178,10 +178,10 @@ Vec2 withCrests(Pass& p, const Fields& f, Vec2 slope, Float steep, Float beside)
     const Float lack = smoothstep(0.55f, 0.15f, steep / max(sides, Float(0.01f))) * sides * beside;
     Var<Float> x = p.var(slope.x), y = p.var(slope.y);
     p.if_(lack > 0.0f, [&] {
-        constexpr int kSize = 40;
+        constexpr int kSize = 64;
         const float left = shareLeft(kSize, p.step());  // wide columns get the mean
         const auto across = [&](const char* name) {
-            return lerp(Float(0.7f), p.simplex2D(name, kSize, {.5f, 1.0f}) * 1.5f, left) * lack;
+            return lerp(Float(0.5f), p.simplex2D(name, kSize, {.4f, 1.0f}) * 1.1f, left) * lack;
         };
         x = slope.x + across("crests x");
         y = slope.y + across("crests y");
@@ -207,12 +207,12 @@ Relief detailed(Pass& p, const Fields& f) {
     const Vec2 fall = withCrests(p, f, slope, steep, beside);
     const Float strength = inland * smoothstep(kSea + 2.0f, kSea + 30.0f, base) * beside *
                            (max(max(range, dry), smoothstep(0.3f, 0.9f, steep)) * 0.6f + 0.4f) *
-                           (1.0f - p.read(f.canyon) * 0.6f) * smoothstep(0.88f, 0.8f, volcanic);
+                           (1.0f - p.read(f.canyon) * 0.6f) * smoothstep(0.9f, 0.55f, volcanic);
     p.if_(volcanic > 0.12f, [&] { height = height + barrancos(p, f, slope); });
     p.if_(strength > 0.0f, [&] {
         const Eroded gullies =
             erode(p, "gullies", fall, strength,
-                  {.size = 128, .octaves = 5, .depth = 0.42f, .fullSlope = 0.9f, .gain = 0.6f});
+                  {.size = 128, .octaves = 5, .depth = 0.37f, .fullSlope = 0.9f, .gain = 0.6f});
         // They do not reach the level of the sea, nor that of the streams that they lead to: they are
         // shallower where there is less room.
         const Float lowest = max(p.read(f.streamLevel) + 1.0f, Float(kSea + 1.6f));

@@ -176,7 +176,7 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const auto is = [&](Block block, const char* name) { return block == p.block(name); };
     const Bool isSoil = is(top, "grass") || is(top, "moss") || is(top, "snow");
     const Block soil = select(isSoil, p.block("dirt"), select(is(top, "red_sand"), p.block("red_sand"), top));
-    const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.15f - smoothstep(0.0f, -0.4f, s.cold) * 0.2f;
+    const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.3f - smoothstep(0.0f, -0.4f, s.cold) * 0.2f;
     // Sand lies on dunes, not on mountains.
     const Bool isSandy = is(top, "sand") && biome == number(Biome::Desert);
     const Bool isDune = isSandy && p.read(f.range) < 0.1f && p.read(f.canyon) < 0.1f;
@@ -245,7 +245,7 @@ void surfacePass(Pass& p, const Fields& f) {
     p.set(f.soil, springGround(p, p.read(f.spring), ground.soil));
     p.set(f.rock, ground.rock);
     p.set(f.cold, s.cold);
-    const Float steepest = select(isTower(p, f), Float(2.8f), Float(1.2f));
+    const Float steepest = select(isTower(p, f), Float(2.8f), Float(1.35f));
     const Float gentle = smoothstep(steepest, steepest - 0.4f, s.steepness);
     const Bool isDry = s.surface >= p.read(f.water);
     p.set(f.forest, select(isDry, gentle, Float(0.0f)));

@@ -69,7 +69,7 @@ Float flanksOf(Pass& p, const Volcano& volcano) {
 
 Float barrancos(Pass& p, const Fields& f, Vec2 slope) {
     const Float share = p.read(f.volcanic);
-    const Float strength = smoothstep(0.12f, 0.3f, share) * smoothstep(0.9f, 0.84f, share) *
+    const Float strength = smoothstep(0.12f, 0.3f, share) * smoothstep(0.9f, 0.6f, share) *
                            smoothstep(kSea + 2.0f, kSea + 40.0f, p.read(f.base));
     return erode(p, "barrancos", slope, strength,
                  {.size = 256, .octaves = 2, .depth = 0.17f, .fullSlope = 0.7f, .gain = 0.55f})
