@@ -57,7 +57,7 @@ struct Side {
 Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& ice) {
     const Float range = p.read(f.range), hilly = p.read(f.hilly);
     // Spurs and hollows: no side is even, and no ridge as long as its stream.
-    const Float spurs = p.simplex2D("spurs", 64, {.25f, .5f, 1.0f});
+    const Float spurs = p.perlin2D("spurs", 64, {.25f, .5f, 1.0f});
     const Float beside = straight * (spurs * 0.34f + 1.0f);
     const Float varied = p.perlin2D("sides", 256, {.4f, 1.0f}) * 0.3f + 1.0f;  // not all valleys are alike
     const Float steep = (range * 0.85f + hilly * 0.17f + 0.015f) * varied;
@@ -181,7 +181,7 @@ Vec2 withCrests(Pass& p, const Fields& f, Vec2 slope, Float steep, Float beside)
         constexpr int kSize = 64;
         const float left = shareLeft(kSize, p.step());  // wide columns get the mean
         const auto across = [&](const char* name) {
-            return lerp(Float(0.5f), p.simplex2D(name, kSize, {.4f, 1.0f}) * 1.1f, left) * lack;
+            return lerp(Float(0.5f), p.perlin2D(name, kSize, {.4f, 1.0f}) * 1.1f, left) * lack;
         };
         x = slope.x + across("crests x");
         y = slope.y + across("crests y");
@@ -196,7 +196,7 @@ Relief detailed(Pass& p, const Fields& f) {
     const Float volcanic = p.read(f.volcanic);
     // Volcanoes are land, wherever they stand.
     const Float inland = max(smoothstep(0.0f, 0.05f, land), smoothstep(0.05f, 0.15f, volcanic)),
-                floors = p.simplex2D("valley floors", 48, {.5f, 1.0f}) * 0.45f + 1.0f,
+                floors = p.perlin2D("valley floors", 48, {.5f, 1.0f}) * 0.45f + 1.0f,
                 beside = smoothstep(4.0f, 40.0f, p.read(f.fromStream) * floors);
     const Float flat = smoothstep(0.25f, 0.05f, range) * (1.0f - p.read(f.canyon));
     const Float dry = dryLand(temperature, moisture);
@@ -269,15 +269,29 @@ Steps stepsOf(Float even, Float gradient) {
             share > 0.5f && part > 1.0f - gradient * kSheet / fall};
 }
 
+// Where a large river meets the sea it leaves a delta: flats of silt on both sides of the shore, which its arms
+// part, at the level of the sea.
+Float withDelta(Pass& p, const Fields& f, const DrainageSample& r, Float ground) {
+    const Float land = p.read(f.land);
+    const Float delta = smoothstep(22.0f, 40.0f, r.flow) * smoothstep(210.0f, 60.0f, r.distance) *
+                        smoothstep(0.07f, 0.025f, abs(land)) * smoothstep(9.0f, 4.0f, r.level) *
+                        smoothstep(0.25f, 0.1f, p.read(f.range));
+    Var<Float> height = p.var(ground);
+    p.if_(delta > 0.0f, [&] {
+        const Float lines = abs(p.perlin2D("arms of deltas", 36, {.35f, 1.0f}));
+        const Float flats = p.perlin2D("flats of deltas", 24, {.5f, 1.0f});
+        const Float silt = clamp(ground, kSea - 2.2f + delta * 2.6f, Float(kSea + 1.5f)) + flats * 0.7f;
+        const Float arms = smoothstep(0.13f, 0.06f, lines) * smoothstep(0.1f, 0.4f, delta);
+        height = lerp(ground, silt - arms * 3.0f, smoothstep(0.0f, 0.3f, delta));
+    });
+    return height;
+}
+
 // Cuts beds and basins into ground of the given height.
-Water cut(Pass& p, const Fields& f, Float ground) {
+Water cut(Pass& p, const Fields& f, Float uncut) {
     const DrainageSample r = p.drainage(f.rivers);
     const Float land = p.read(f.land);
-    // Rivers are narrow here and wide there, with bays and points. A core stays open.
-    const Float rough = p.perlin2D("banks", 8, {.5f, 1.0f});
-    const Float bays = p.simplex2D("bays of rivers", 20, {.35f, .7f, 1.0f}) * (r.halfWidth * 0.28f + 0.8f);
-    const Float channel = min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.3f);
-    Var<Float> fromBank = p.var(channel);
+    const Float ground = withDelta(p, f, r, uncut);
     Var<Float> height = p.var(ground);
     Var<Int> water = p.var(Int(kSeaZ));
     Var<Float> wet = p.var(Float(0.0f));
@@ -285,8 +299,12 @@ Water cut(Pass& p, const Fields& f, Float ground) {
         // To the coast the land, and the water with it, falls to the level of the sea.
         const Float even = min(r.level, max(p.read(f.base) - 1.0f, Float(kSea + 0.5f)));
         const Steps s = stepsOf(even, r.fall);
+        // Narrow here and wide there, with bays and points. A core stays open.
+        const Float rough = p.perlin2D("banks", 8, {.5f, 1.0f});
+        const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f}) * (r.halfWidth * 0.28f + 0.8f);
+        const Float channel = min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.3f);
         const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;  // share: at the foot of a fall
-        fromBank = channel - below * (s.fall * 0.2f + 0.8f);  // the pool that it dug
+        const Float fromBank = channel - below * (s.fall * 0.2f + 0.8f);  // the pool that it dug
         const Float across = clamp(r.distance / max(r.halfWidth, Float(1.0f)), 0.0f, 1.0f);
         const Float bed = s.level - 0.6f - (1.0f - across * across) * (r.halfWidth * 0.3f + 0.8f) -
                           below * (s.fall * 0.16f + 1.0f);
@@ -305,8 +323,9 @@ Water cut(Pass& p, const Fields& f, Float ground) {
         wet = smoothstep(12.0f, 2.0f, fromBank);
     });
     // Pools of marshes, as high as the river beside them, with rims.
+    const Float fromBank = r.distance - r.halfWidth;
     const Float marsh = smoothstep(0.0f, 0.12f, p.read(f.moisture)) * smoothstep(0.02f, 0.006f, r.fall) *
-                        smoothstep(44.0f, 26.0f, channel) * smoothstep(3.0f, 7.0f, channel);
+                        smoothstep(44.0f, 26.0f, fromBank) * smoothstep(4.0f, 8.0f, fromBank);
     p.if_(marsh > 0.0f && land > 0.02f && ground < r.level + 2.6f, [&] {
         const Float pools = p.simplex2D("marsh pools", 10, {.5f, 1.0f}) - (1.0f - marsh) * 1.5f;
         const Float level = max(min(r.level, p.read(f.base) - 1.0f), Float(kSea + 0.5f));
