@@ -130,7 +130,7 @@ void formsPass(Pass& p, const Fields& f) {
     const Float temperature = beltAt(p) * 0.58f + p.perlin2D("temperature", 512, {.08f, .15f, .22f, .5f}) * 0.7f;
     const Float nearSea = smoothstep(0.5f, 0.0f, land);
     const Float moisture =
-        p.perlin2D("moisture", 256, {.06f, .12f, .3f, .6f, 1.0f}) * 1.05f + nearSea * 0.12f;
+        p.perlin2D("moisture", 128, {.05f, .08f, .13f, .3f, .6f, 1.0f}) * 1.05f + nearSea * 0.12f;
     // The sea follows every bay and rock of the shore.
     p.set(f.land, land + p.simplex2D("shore line", 8, {.001f, .002f, .003f}));
     p.set(f.range, range);

@@ -336,7 +336,8 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         wet = select(isRim, Float(1.0f), static_cast<Float>(wet));
     });
     p.if_(r.lakeDistance < 110.0f, [&] {
-        const Float fromShore = r.lakeDistance + p.simplex2D("shores", 24, {.2f, .4f, .7f, 1.0f}) * 24.0f;
+        const Float fromShore = r.lakeDistance + p.simplex2D("shores", 24, {.2f, .4f, .7f, 1.0f}) * 22.0f +
+                                p.perlin2D("arms of lakes", 140, {1.0f, .8f}) * 42.0f;
         const Float shore = r.lakeLevel + 1.2f + clamp(fromShore * 0.1f, 0.0f, 2.0f);
         const Float now = height;
         // Rivers keep their banks up to the shore. Where the land is lower, what holds the lake slopes down.

@@ -53,7 +53,7 @@ float sprayAt(vec3 position, vec3 normal, float distance) {
         threads += sin(u * 2.9 * wide + 1.7 * sin(v * 0.35 * wide + u * 0.8) + 2.1 * float(k)) *
                    sin(v * 0.8 * wide + 1.3 * sin(u * 1.9 * wide)) / wide;
     }
-    return clamp(0.62 + 0.3 * threads * left, 0.0, 0.95);
+    return clamp(0.58 + 0.4 * threads * left, 0.0, 0.95);
 }
 
 // Color that a layer adds, and the share of the background that it transmits.
