@@ -1,5 +1,5 @@
-// Caves, water and places of wilderness: great rooms, caves of ice where it is cold alone, banks that hold
-// rivers and lakes, and every kind of place near enough to be found.
+// Caves, climate, water and places of wilderness: great rooms, caves of ice where it is cold alone, belts by
+// seed, banks that hold rivers and lakes, and every kind of place near enough to be found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,6 +94,21 @@ TEST(WildernessCaves, AreOfIceOnlyWhereItIsCold) {
     EXPECT_GT(icy, 0);
 }
 
+// Belts of climate lie elsewhere with each seed, but for the land where worlds begin.
+TEST(WildernessClimate, FollowsFromTheSeedAndIsTemperateAtTheOrigin) {
+    constexpr int kLevel = 6, kTilesFromOrigin = 8;  // 1,024 blocks a tile
+    float coldest = 1, warmest = -1;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Columns columns(kLevel, seed);
+        EXPECT_LT(std::abs(asFloat(columns.of("temperature", 0, 0)[0])), 0.45f) << "seed " << seed;
+        const float far = asFloat(columns.of("temperature", 0, kTilesFromOrigin)[0]);
+        coldest = std::min(coldest, far);
+        warmest = std::max(warmest, far);
+    }
+    EXPECT_LT(coldest, -0.3f);
+    EXPECT_GT(warmest, 0.3f);
+}
+
 // Fields of the land of a tile of level 4, column by column.
 struct WaterLand {
     static constexpr int kSide = 256;
@@ -105,7 +120,8 @@ struct WaterLand {
             const auto surfaces = fine.of("surface", x, y), waters = fine.of("water", x, y);
             for (int k = 0; k < 256; ++k) {
                 const auto column = static_cast<std::size_t>(k);
-                const auto at = static_cast<std::size_t>((chunk / 16 * 16 + k / 16) * kSide + chunk % 16 * 16 + k % 16);
+                const auto at =
+                    static_cast<std::size_t>((chunk / 16 * 16 + k / 16) * kSide + chunk % 16 * 16 + k % 16);
                 surface[at] = asInt(surfaces[column]);
                 water[at] = asInt(waters[column]);
             }
@@ -134,9 +150,10 @@ TEST(WildernessWater, IsHeldByItsBanks) {
                     for (const int offset : {1, -1, WaterLand::kSide, -WaterLand::kSide}) {
                         const auto beside = static_cast<std::size_t>(static_cast<int>(at) + offset);
                         const int level = land.isWater(beside) ? land.water[beside] : land.surface[beside];
-                        const int lowest = land.isWater(beside) ? land.water[at] - kHighestFall : land.water[at];
-                        ASSERT_GE(level, lowest) << "seed " << seed << ", column " << tileX * 256 + x << ", "
-                                                 << tileY * 256 + y;
+                        const int lowest =
+                            land.isWater(beside) ? land.water[at] - kHighestFall : land.water[at];
+                        ASSERT_GE(level, lowest)
+                            << "seed " << seed << ", column " << tileX * 256 + x << ", " << tileY * 256 + y;
                     }
                 }
             }

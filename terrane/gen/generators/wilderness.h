@@ -178,11 +178,11 @@ void archesPass(Pass& p, const Fields& f);  // 2D, up to kMaxArchStep
 Float limestoneShare(Pass& p, const Fields& f);
 // A cone with a crater, of the coarse heights and of the ground alike (wilderness_volcano.cpp).
 struct Volcano {
-    Float height;  // z
-    Float rise;    // blocks above the land around
-    Float share;   // 0…1: from its foot to its middle
-    Int lake;      // z of the surface of its crater's lake, at columns in the crater; -kNoSpan for none
-    Bool isLava;   // what the lake is of
+    Float height;    // z
+    Float rise;      // blocks above the land around
+    Float share;     // 0…1: from its foot to its middle
+    Int lake;        // z of the surface of its crater's lake, at columns in the crater; -kNoSpan for none
+    Bool isLava;     // what the lake is of
     Float toX, toY;  // blocks to its middle
 };
 Volcano volcanoAt(Pass& p);

@@ -61,9 +61,9 @@ Float beltAt(Pass& p) {
         return Float(floorModulo(p.y(), period)) * (1.0f / static_cast<float>(period));
     };
     const Float width = chance("width of belts");
-    const Float turns = multiSelect({{width < 0.33f, turnsOf(kClimatePeriods[0])},
-                                     {width < 0.67f, turnsOf(kClimatePeriods[1])}},
-                                    turnsOf(kClimatePeriods[2]));
+    const Float turns = multiSelect(
+        {{width < 0.33f, turnsOf(kClimatePeriods[0])}, {width < 0.67f, turnsOf(kClimatePeriods[1])}},
+        turnsOf(kClimatePeriods[2]));
     const Float north = select(chance("side of warm land") < 0.5f, Float(0.0f), Float(0.5f));
     const Float phase = north + (chance("phase of belts") - 0.5f) * (2.0f * kNearTemperate);
     const Float bends = p.perlin2D("bends of belts", 8192, {1.0f}) * 0.16f;
@@ -127,7 +127,8 @@ Drainage rivers(GeneratorBuilder& g) {
 
 void formsPass(Pass& p, const Fields& f) {
     const Float land = landAt(p), range = rangeAt(p, land);
-    const Float temperature = beltAt(p) * 0.58f + p.perlin2D("temperature", 512, {.08f, .15f, .22f, .5f}) * 0.7f;
+    const Float temperature =
+        beltAt(p) * 0.58f + p.perlin2D("temperature", 512, {.08f, .15f, .22f, .5f}) * 0.7f;
     const Float nearSea = smoothstep(0.5f, 0.0f, land);
     const Float moisture =
         p.perlin2D("moisture", 128, {.05f, .08f, .13f, .3f, .6f, 1.0f}) * 1.05f + nearSea * 0.12f;

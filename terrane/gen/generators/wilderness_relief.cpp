@@ -152,8 +152,8 @@ struct Relief {
     Float height, rocky;
 };
 
-// Blocks of limestone above the plain: large towers and small ones, each of its own size, in groups and alone,
-// some of which have grown together.
+// Blocks of limestone above the plain: large towers and small ones, each of its own size, in groups and
+// alone, some of which have grown together.
 Float karstTowers(Pass& p) {
     constexpr int kWide = 118, kNarrow = 61;
     const Float rough = p.simplex2D("tower sides", 16, {.35f, .7f, 1.0f}) * 5.0f;
@@ -161,7 +161,8 @@ Float karstTowers(Pass& p) {
         const Voronoi2D at = p.voronoi2D(name, cell, 1);
         const Float chance = p.random2D(sizes, p.x() + at.offset.x, p.y() + at.offset.y);
         // A quarter of the cells is empty.
-        const Float radius = (max(chance - 0.25f, Float(0.0f)) * more + least) * smoothstep(0.22f, 0.27f, chance);
+        const Float radius =
+            (max(chance - 0.25f, Float(0.0f)) * more + least) * smoothstep(0.22f, 0.27f, chance);
         const Float near = clamp(1.0f - (at.distance + rough) / max(radius, Float(1.0f)), 0.0f, 1.0f);
         const Float tower = smoothstep(0.0f, 0.35f, near) * 0.7f + near * 0.3f;
         const float left = shareLeft(cell, p.step());
@@ -269,8 +270,8 @@ Steps stepsOf(Float even, Float gradient) {
             share > 0.5f && part > 1.0f - gradient * kSheet / fall};
 }
 
-// Where a large river meets the sea it leaves a delta: flats of silt on both sides of the shore, which its arms
-// part, at the level of the sea.
+// Where a large river meets the sea it leaves a delta: flats of silt on both sides of the shore, which its
+// arms part, at the level of the sea.
 Float withDelta(Pass& p, const Fields& f, const DrainageSample& r, Float ground) {
     const Float land = p.read(f.land);
     const Float delta = smoothstep(22.0f, 40.0f, r.flow) * smoothstep(210.0f, 60.0f, r.distance) *
@@ -303,7 +304,7 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         const Float rough = p.perlin2D("banks", 8, {.5f, 1.0f});
         const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f}) * (r.halfWidth * 0.28f + 0.8f);
         const Float channel = min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.3f);
-        const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;  // share: at the foot of a fall
+        const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;    // share: at the foot of a fall
         const Float fromBank = channel - below * (s.fall * 0.2f + 0.8f);  // the pool that it dug
         const Float across = clamp(r.distance / max(r.halfWidth, Float(1.0f)), 0.0f, 1.0f);
         const Float bed = s.level - 0.6f - (1.0f - across * across) * (r.halfWidth * 0.3f + 0.8f) -

@@ -21,8 +21,8 @@ struct Site {
 
 constexpr int kMaxHeldStep = 4;  // wider columns are too far away for it
 
-// z of the highest ground block. Ground holds the water beside it: a column between two rivers, or a river and
-// a lake, belongs to one of them and does not know the other.
+// z of the highest ground block. Ground holds the water beside it: a column between two rivers, or a river
+// and a lake, belongs to one of them and does not know the other.
 Int heldSurface(Pass& p, const Fields& f) {
     const int step = p.step();
     const Int own = Int(floor(p.read(f.height)));
@@ -32,7 +32,8 @@ Int heldSurface(Pass& p, const Fields& f) {
         Int highest = own;
         for (const auto& [dx, dy] : {std::pair{step, 0}, {-step, 0}, {0, step}, {0, -step}}) {
             const Int water = p.readAt(f.water, {Int(dx), Int(dy)});
-            highest = max(highest, select(Int(floor(p.readAt(f.height, {Int(dx), Int(dy)}))) < water, water, own));
+            highest =
+                max(highest, select(Int(floor(p.readAt(f.height, {Int(dx), Int(dy)}))) < water, water, own));
         }
         held = highest;
     });
@@ -187,8 +188,7 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     // Stones that fall from cliffs lie below them.
     const Bool isScree = p.read(f.range) > 0.15f && s.cold < 0.0f && s.steepness > bareFrom - 0.3f && !isBare;
     const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.4f + 1.35f;
-    const Bool isUnderWater =
-        s.surface < p.read(f.water) && p.read(f.wet) > 0.0f && !p.read(f.isLava);
+    const Bool isUnderWater = s.surface < p.read(f.water) && p.read(f.wet) > 0.0f && !p.read(f.isLava);
     const Block bottom = landforms::riverBed(p, patches, spots);
     // Rivers and lakes leave sand and gravel beside them, in bars here and there.
     const Bool isBank = p.read(f.wet) > 0.75f - patches * 0.35f && s.steepness < 2.2f && !isUnderWater &&
@@ -206,7 +206,8 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
                         top),
             multiSelect({{isUnderWater, bottom},
                          {isBank, select(isGravelly, p.block("gravel"), p.block("dirt"))},
-                         {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil),
+                         {isBare || s.steepness > bareFrom - 0.25f, rock}},
+                        soil),
             rock};
 }
 

@@ -33,8 +33,8 @@ Volcano volcanoAt(Pass& p) {
         const Float level = kSea - kFoot + rim * (rim * 0.75f + 0.25f) * rise - rise * 0.06f;
         lake = select(inCrater < 0.7f && cell.distance < crater, Int(level), static_cast<Int>(lake));
     });
-    return {kSea - kFoot + height, height,     share,         lake, inCrater < 0.3f,
-            Float(cell.offset.x),  Float(cell.offset.y)};
+    return {kSea - kFoot + height, height, share, lake, inCrater < 0.3f, Float(cell.offset.x),
+            Float(cell.offset.y)};
 }
 
 namespace {
@@ -57,7 +57,8 @@ Float cinderCones(Pass& p, Float share) {
 Float flanksOf(Pass& p, const Volcano& volcano) {
     const Float share = volcano.share;
     // Tongues of lava run down: waves around the cone, broken by noise, with steep edges and flat tops.
-    const Float inverse = 1.0f / max(sqrt(volcano.toX * volcano.toX + volcano.toY * volcano.toY), Float(1.0f));
+    const Float inverse =
+        1.0f / max(sqrt(volcano.toX * volcano.toX + volcano.toY * volcano.toY), Float(1.0f));
     const Vec2 around = {-volcano.toY * inverse, volcano.toX * inverse};
     const Float broken = p.simplex2D("lava tongues", 64, {.2f, .5f, 1.0f});
     const Float old = p.stripes2D("old lava tongues", 420, around).cosine + broken * 0.5f;
