@@ -172,7 +172,7 @@ TEST(Catalogue, AVersionAlwaysMakesTheSameTiles) {
          "6ab4bb c2c7c3 280303 fa6296 b203c5 af28de 6fce05 68bd81 effa8c 926bc0 fedd7a 11c855 beca2e 7df9de "
          "9d7cf4"},
         {"wilderness",
-         "65d0f7 070306 ed888a 4f4bb1 3860f0 746e09 40b120 07019f 3fc3de 37e6b2 4c6728 a14717 8325b8 4583da "
+         "65d0f7 070306 ed888a 4f4bb1 3860f0 746e09 40b120 07019f d35073 37e6b2 4c6728 a14717 8325b8 4583da "
          "18ea43"},
         {"flat",
          "c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba "
