@@ -1,5 +1,5 @@
-// Caves and places of wilderness: great rooms, caves of ice where it is cold alone, and every kind of place
-// near enough to be found.
+// Caves, climate, water and places of wilderness: great rooms, caves of ice where it is cold alone, belts by
+// seed, banks that hold rivers and lakes, and every kind of place near enough to be found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,13 +20,13 @@ namespace {
 
 using wilderness::Place;
 
-// Fields by column of one chunk or tile of seed 1.
+// Fields by column of one chunk or tile.
 class Columns {
   public:
-    explicit Columns(int level = 0)
+    explicit Columns(int level = 0, std::uint64_t seed = 1)
         : level_(static_cast<std::uint8_t>(level)),
           graph_(*makeGenerator("wilderness", contentBlocks(), level)),
-          generator_(graph_, 1) {}
+          generator_(graph_, seed) {}
 
     auto of(std::string_view field, int chunkX, int chunkY) const {
         const auto found = std::ranges::find(graph_.fields, field, &FieldInfo::name);
@@ -92,6 +92,74 @@ TEST(WildernessCaves, AreOfIceOnlyWhereItIsCold) {
     }
     EXPECT_GT(cold, 0);
     EXPECT_GT(icy, 0);
+}
+
+// Belts of climate lie elsewhere with each seed, but for the land where worlds begin.
+TEST(WildernessClimate, FollowsFromTheSeedAndIsTemperateAtTheOrigin) {
+    constexpr int kLevel = 6, kTilesFromOrigin = 8;  // 1,024 blocks a tile
+    float coldest = 1, warmest = -1;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Columns columns(kLevel, seed);
+        EXPECT_LT(std::abs(asFloat(columns.of("temperature", 0, 0)[0])), 0.45f) << "seed " << seed;
+        const float far = asFloat(columns.of("temperature", 0, kTilesFromOrigin)[0]);
+        coldest = std::min(coldest, far);
+        warmest = std::max(warmest, far);
+    }
+    EXPECT_LT(coldest, -0.3f);
+    EXPECT_GT(warmest, 0.3f);
+}
+
+// Fields of the land of a tile of level 4, column by column.
+struct WaterLand {
+    static constexpr int kSide = 256;
+    std::vector<int> surface, water;
+
+    WaterLand(const Columns& fine, int tileX, int tileY) : surface(kSide * kSide), water(kSide * kSide) {
+        for (int chunk = 0; chunk < 256; ++chunk) {
+            const int x = tileX * 16 + chunk % 16, y = tileY * 16 + chunk / 16;
+            const auto surfaces = fine.of("surface", x, y), waters = fine.of("water", x, y);
+            for (int k = 0; k < 256; ++k) {
+                const auto column = static_cast<std::size_t>(k);
+                const auto at =
+                    static_cast<std::size_t>((chunk / 16 * 16 + k / 16) * kSide + chunk % 16 * 16 + k % 16);
+                surface[at] = asInt(surfaces[column]);
+                water[at] = asInt(waters[column]);
+            }
+        }
+    }
+    bool isWater(std::size_t at) const { return surface[at] < water[at]; }
+};
+
+// Rivers and lakes are held: beside their water is ground as high, or water, lower by a waterfall at most.
+TEST(WildernessWater, IsHeldByItsBanks) {
+    constexpr int kHighestFall = 28, kTiles = 5, kReach = 24;
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+        const Columns wide(4, seed), fine(0, seed);
+        int found = 0, columns = 0;
+        for (int tile = 0; tile < 4 * kReach * kReach && found < kTiles; ++tile) {
+            const int tileX = tile % (2 * kReach) - kReach, tileY = tile / (2 * kReach) - kReach;
+            const auto waters = wide.of("water", tileX, tileY);
+            if (std::ranges::count_if(waters, [](Bits water) { return asInt(water) > 0; }) < 8) continue;
+            ++found;
+            const WaterLand land(fine, tileX, tileY);
+            for (int y = 1; y < WaterLand::kSide - 1; ++y) {
+                for (int x = 1; x < WaterLand::kSide - 1; ++x) {
+                    const auto at = static_cast<std::size_t>(y * WaterLand::kSide + x);
+                    if (!land.isWater(at) || land.water[at] <= 0) continue;
+                    ++columns;
+                    for (const int offset : {1, -1, WaterLand::kSide, -WaterLand::kSide}) {
+                        const auto beside = static_cast<std::size_t>(static_cast<int>(at) + offset);
+                        const int level = land.isWater(beside) ? land.water[beside] : land.surface[beside];
+                        const int lowest =
+                            land.isWater(beside) ? land.water[at] - kHighestFall : land.water[at];
+                        ASSERT_GE(level, lowest)
+                            << "seed " << seed << ", column " << tileX * 256 + x << ", " << tileY * 256 + y;
+                    }
+                }
+            }
+        }
+        EXPECT_GT(columns, 1000) << "seed " << seed;
+    }
 }
 
 // A column of each kind of place that shows that it is there, within 8 km.

@@ -37,6 +37,7 @@ Fields::Fields(GeneratorBuilder& g)
       base(g.field<Float>("base")),
       fromStream(g.field<Float>("from stream")),
       streamLevel(g.field<Float>("stream level")),
+      sides(g.field<Float>("sides")),
       height(g.field<Float>("height")),
       rocky(g.field<Float>("rocky")),
       wet(g.field<Float>("wet")),

@@ -101,6 +101,7 @@ struct Fields {
     Field<Float> base;      // z before gullies and rivers
     // The streams around, see ValleySample: blocks to them, z.
     Field<Float> fromStream, streamLevel;
+    Field<Float> sides;   // blocks a block that the sides of valleys rise here, but on divides
     Field<Float> height;  // z
     Field<Float> rocky;   // share: bare whatever its slope
     Field<Float> wet;     // share: in a river or lake, or on its bank
@@ -175,15 +176,19 @@ void archesPass(Pass& p, const Fields& f);  // 2D, up to kMaxArchStep
 
 // Share: limestone is below.
 Float limestoneShare(Pass& p, const Fields& f);
-// A cone with a crater, of the coarse heights and of the ground alike (wilderness_forms.cpp).
+// A cone with a crater, of the coarse heights and of the ground alike (wilderness_volcano.cpp).
 struct Volcano {
-    Float height;  // z
-    Float rise;    // blocks above the land around
-    Float share;   // 0…1: from its foot to its middle
-    Int lake;      // z of the surface of its crater's lake, at columns in the crater; -kNoSpan for none
-    Bool isLava;   // what the lake is of
+    Float height;    // z
+    Float rise;      // blocks above the land around
+    Float share;     // 0…1: from its foot to its middle
+    Int lake;        // z of the surface of its crater's lake, at columns in the crater; -kNoSpan for none
+    Bool isLava;     // what the lake is of
+    Float toX, toY;  // blocks to its middle
 };
 Volcano volcanoAt(Pass& p);
+// Blocks that tongues of lava and cinder cones add to its ground; valleys between its ribs, 0 or less.
+Float flanksOf(Pass& p, const Volcano& volcano);
+Float barrancos(Pass& p, const Fields& f, Vec2 slope);
 // Shares of the landforms of a climate: canyons, dunes, limestone towers.
 Float dryLand(Float temperature, Float moisture);
 Float sandLand(Float temperature, Float moisture);

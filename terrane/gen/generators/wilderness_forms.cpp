@@ -9,7 +9,9 @@ namespace terrane::gen::wilderness {
 
 namespace {
 
-constexpr int kClimatePeriod = 32768;  // blocks from one warm belt to the next, along y
+// Blocks from one warm belt to the next, along y. Where belts lie, how wide they are and whether warm land is
+// to the north or to the south follows from the seed.
+constexpr int kClimatePeriods[] = {24576, 32768, 40960};
 
 constexpr int kOriginRadius = 2400;  // blocks
 
@@ -27,7 +29,7 @@ Float beyondOrigin(Pass& p) {
 Float landAt(Pass& p) {
     constexpr float kSeaShare = 0.2f;  // makes 35…45 % land
     const Float noise =
-        p.simplex2D("continents", 64, {.005f, .009f, .017f, .03f, .06f, .11f, .22f, .55f, 1.0f});
+        p.simplex2D("continents", 64, {.006f, .012f, .026f, .06f, .115f, .19f, .26f, .53f, 1.0f});
     return noise + originLand(p) - kSeaShare;
 }
 
@@ -49,6 +51,23 @@ Float tableAt(Pass& p, Float land) {
 
 Float hillyAt(Pass& p) {
     return smoothstep(0.0f, 0.7f, p.perlin2D("hilly", 2048, {.2f, .4f, 1.0f}));
+}
+
+// −1…1: how warm the belt is, whose borders bend by some km. Near block 0, 0 it is temperate for all seeds.
+Float beltAt(Pass& p) {
+    constexpr float kNearTemperate = 0.05f;  // of a turn, to either side
+    const auto chance = [&](const char* name) { return p.random2D(name, Int(0), Int(0)); };
+    const auto turnsOf = [&](int period) {
+        return Float(floorModulo(p.y(), period)) * (1.0f / static_cast<float>(period));
+    };
+    const Float width = chance("width of belts");
+    const Float turns = multiSelect(
+        {{width < 0.33f, turnsOf(kClimatePeriods[0])}, {width < 0.67f, turnsOf(kClimatePeriods[1])}},
+        turnsOf(kClimatePeriods[2]));
+    const Float north = select(chance("side of warm land") < 0.5f, Float(0.0f), Float(0.5f));
+    const Float phase = north + (chance("phase of belts") - 0.5f) * (2.0f * kNearTemperate);
+    const Float bends = p.perlin2D("bends of belts", 8192, {1.0f}) * 0.16f;
+    return sin((turns + phase + bends) * (2.0f * std::numbers::pi_v<float>));
 }
 
 Float peaksAt(Pass& p) {
@@ -80,37 +99,6 @@ Float streamGradient(Pass& p) {
 
 }  // namespace
 
-// A cone with a crater around the point of a wide cell.
-Volcano volcanoAt(Pass& p) {
-    constexpr int kCell = 6144;
-    constexpr float kChance = 0.3f;
-    const Voronoi2D cell = p.voronoi2D("volcanoes", kCell, 1);
-    const Int x = p.x() + cell.offset.x, y = p.y() + cell.offset.y;
-    const Bool isVolcano = p.random2D("is volcano", x, y) < kChance;
-    const Float size = p.random2D("volcano size", x, y);
-    const Float radius = size * 500.0f + 900.0f, rise = size * 450.0f + 600.0f, crater = size * 60.0f + 90.0f;
-    const Float away = cell.distance / radius;
-    // Of ten craters four have a lake and three are full of lava.
-    const Float inCrater = p.random2D("in the crater", x, y);
-    constexpr float kFoot = 45.0f;  // blocks below the sea
-    Var<Float> height = p.var(Float(0.0f)), share = p.var(Float(0.0f));
-    Var<Int> lake = p.var(Int(-kNoSpan));
-    p.if_(isVolcano && away < 1.3f, [&] {
-        // Flows of lava make its foot uneven, not its crater.
-        const Float uneven = p.simplex2D("lava flows", 128, {.2f, .5f, 1.0f}) * 0.22f + 1.0f;
-        const Float along = away * lerp(Float(1.0f), uneven, smoothstep(0.15f, 0.5f, away));
-        const Float outside = clamp(1.0f - along, 0.0f, 1.0f);
-        // A cone whose sides get steeper up to the rim.
-        const Float rim = clamp(1.0f - crater / radius, 0.0f, 1.0f), up = min(outside, rim);
-        const Float inside = smoothstep(crater * 0.95f, crater * 0.55f, cell.distance);
-        height = up * (up * 0.75f + 0.25f) * rise - inside * rise * 0.12f;
-        share = outside;
-        const Float level = kSea - kFoot + rim * (rim * 0.75f + 0.25f) * rise - rise * 0.06f;
-        lake = select(inCrater < 0.7f && cell.distance < crater, Int(level), static_cast<Int>(lake));
-    });
-    return {kSea - kFoot + height, height, share, lake, inCrater < 0.3f};
-}
-
 Float dryLand(Float temperature, Float moisture) {
     return smoothstep(0.12f, 0.24f, temperature) * smoothstep(0.0f, -0.12f, moisture) *
            smoothstep(-0.62f, -0.5f, moisture);
@@ -139,12 +127,11 @@ Drainage rivers(GeneratorBuilder& g) {
 
 void formsPass(Pass& p, const Fields& f) {
     const Float land = landAt(p), range = rangeAt(p, land);
-    const Int inBelt = floorModulo(p.y(), kClimatePeriod);
-    const Float belt = sin(Float(inBelt) * (2.0f * std::numbers::pi_v<float> / kClimatePeriod));
-    const Float temperature = belt * 0.58f + p.perlin2D("temperature", 512, {.05f, .1f, .2f, .5f}) * 0.7f;
+    const Float temperature =
+        beltAt(p) * 0.58f + p.perlin2D("temperature", 512, {.08f, .15f, .22f, .5f}) * 0.7f;
     const Float nearSea = smoothstep(0.5f, 0.0f, land);
     const Float moisture =
-        p.perlin2D("moisture", 256, {.06f, .12f, .3f, .6f, 1.0f}) * 1.05f + nearSea * 0.12f;
+        p.perlin2D("moisture", 128, {.05f, .08f, .13f, .3f, .6f, 1.0f}) * 1.05f + nearSea * 0.12f;
     // The sea follows every bay and rock of the shore.
     p.set(f.land, land + p.simplex2D("shore line", 8, {.001f, .002f, .003f}));
     p.set(f.range, range);

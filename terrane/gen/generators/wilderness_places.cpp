@@ -105,7 +105,10 @@ Float withPlaces(Pass& p, const Fields& f, Float ground) {
         const Float share = smoothstep(0.05f, 0.3f, sinkholeShare(p, f));
         const Float hole = smoothstep(radius + 1.5f, radius - 1.5f, away) * share;
         const Float bottom = kSea - 16.0f + smoothstep(0.0f, radius, away) * 5.0f;
-        height = lerp(ground, min(ground, bottom), hole);
+        // No gully cuts the rock that hangs over the water.
+        const Float even =
+            lerp(ground, p.read(f.base), smoothstep(kSinkholeReach, radius + 12.0f, away) * share);
+        height = lerp(even, min(even, bottom), hole);
     });
     p.if_(isKind(p, f, Place::GiantTree) && away < 56.0f, [&] {
         const Float mound = smoothstep(52.0f, 6.0f, away);

@@ -40,15 +40,36 @@ Ice iceOf(Pass& p, const Fields& f, Float flow) {
             smoothstep(3.0f, 12.0f, flow), flow};
 }
 
-// Blocks above the stream, `beside` blocks from the floor of its valley.
-Float slopeAbove(Pass& p, const Fields& f, Float canyon, Float beside, const Ice& ice) {
+// Blocks from the foot of a table land to its level.
+constexpr float kTableRise = 210.0f, kTableEdge = 170.0f;
+
+// Share of the table lands that rise to a level of their own.
+Float tableShare(Pass& p, const Fields& f, Float canyon) {
+    return p.read(f.table) * (1.0f - canyon) * (1.0f - p.read(f.range));
+}
+
+struct Side {
+    Float rise;   // blocks above the stream
+    Float steep;  // blocks a block that it rises, but where a divide cuts it off
+};
+
+// The side of a valley, `straight` blocks from its floor.
+Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& ice) {
     const Float range = p.read(f.range), hilly = p.read(f.hilly);
+    // Spurs and hollows: no side is even, and no ridge as long as its stream.
+    const Float spurs = p.perlin2D("spurs", 64, {.25f, .5f, 1.0f});
+    const Float beside = straight * (spurs * 0.34f + 1.0f);
     const Float varied = p.perlin2D("sides", 256, {.4f, 1.0f}) * 0.3f + 1.0f;  // not all valleys are alike
     const Float steep = (range * 0.85f + hilly * 0.17f + 0.015f) * varied;
     const Float side = beside * steep * (beside * 0.003f * range + 1.0f);
-    // Table lands rise from their valleys to a level of their own.
-    const Float table = p.read(f.table) * (1.0f - canyon) * (1.0f - range);
-    Var<Float> rise = p.var(side + smoothstep(0.0f, 170.0f, beside) * table * 210.0f);
+    // The foot of a table land is a hollow in some places, a cliff in others.
+    const Float part = clamp(beside * ((varied - 0.1f) * (1.0f / kTableEdge)), 0.0f, 1.0f);
+    const Float cliff = smoothstep(0.85f, 1.15f, varied);
+    const Float edge = part * lerp(part * (3.0f - part * 2.0f), 2.0f - part, cliff);
+    const Float edgeSteep = (1.0f - part) * lerp(part * 6.0f, Float(2.0f), cliff);
+    const Float table = tableShare(p, f, canyon) * kTableRise;
+    Var<Float> rise = p.var(side + edge * table);
+    const Float sides = steep + edgeSteep * table * (1.0f / kTableEdge);
     // A trough: steep walls, shoulders above them. Side valleys hang above the floor of the main one.
     p.if_(ice.share > 0.0f, [&] {
         const Float wall = smoothstep(0.0f, 75.0f, beside) * (ice.main * 90.0f + 70.0f);
@@ -63,7 +84,7 @@ Float slopeAbove(Pass& p, const Fields& f, Float canyon, Float beside, const Ice
         const Float walls = landforms::terraces(wall * 190.0f, 31.0f, 4.0f) + beside * 0.02f;
         rise = lerp(static_cast<Float>(rise), walls, canyon);
     });
-    return rise;
+    return {rise, min(sides, Float(1.1f)) * (1.0f - canyon)};
 }
 
 }  // namespace
@@ -91,7 +112,8 @@ void basePass(Pass& p, const Fields& f) {
     const Ice ice = iceOf(p, f, v.flow);
     const Float floorWidth = sqrt(v.flow) * (1.0f - range * 0.6f) * 3.0f + ice.share * ice.main * 24.0f;
     const Float beside = max(v.distance - floorWidth, Float(0.0f));
-    const Float slope = v.level + 1.6f + slopeAbove(p, f, canyon, beside, ice);
+    const Side side = sideOf(p, f, canyon, beside, ice);
+    const Float slope = v.level + 1.6f + side.rise;
     // Where there are no streams; beyond the columns that see them, the mean height of land between them.
     Float plain = kSea + 2.0f + land * 30.0f;
     if (p.step() > kMaxValleyStep)
@@ -107,18 +129,20 @@ void basePass(Pass& p, const Fields& f) {
     p.if_(land <= 0.0f, [&] { ground = withStacks(p, f, seaFloor(p, land)); });
     // The sea fills troughs as far as their streams are low: fjords.
     const Float fjord = smoothstep(0.08f, -0.08f, p.read(f.temperature)) * smoothstep(0.02f, 0.15f, range) *
-                        ice.main * smoothstep(75.0f, 30.0f, v.level);
+                        ice.main * smoothstep(32.0f, 16.0f, v.level);
     p.if_(fjord > 0.0f && land > -0.1f, [&] {
         const Float deep = smoothstep(34.0f, 4.0f, beside) * smoothstep(0.0f, 0.4f, fjord);
         ground = lerp(static_cast<Float>(ground), min(ground, Float(kSea - 42.0f)), deep);
     });
     const Volcano volcano = volcanoAt(p);
-    p.if_(volcano.share > 0.0f, [&] { ground = smoothMax(ground, volcano.height, 12.0f); });
+    p.if_(volcano.share > 0.0f,
+          [&] { ground = smoothMax(ground, volcano.height + flanksOf(p, volcano), 12.0f); });
     p.set(f.craterLake, volcano.lake);
     p.set(f.isLava, volcano.isLava && volcano.lake > -kNoSpan);
     p.set(f.base, static_cast<Float>(ground));
     p.set(f.fromStream, v.distance);
     p.set(f.streamLevel, v.level);
+    p.set(f.sides, side.steep * smoothstep(kFarthest, kFar, v.distance));
     p.set(f.volcanic, volcano.share);
 }
 
@@ -128,27 +152,74 @@ struct Relief {
     Float height, rocky;
 };
 
+// Blocks of limestone above the plain: large towers and small ones, each of its own size, in groups and
+// alone, some of which have grown together.
+Float karstTowers(Pass& p) {
+    constexpr int kWide = 118, kNarrow = 61;
+    const Float rough = p.simplex2D("tower sides", 16, {.35f, .7f, 1.0f}) * 5.0f;
+    const auto towers = [&](const char* name, const char* sizes, int cell, float least, float more) {
+        const Voronoi2D at = p.voronoi2D(name, cell, 1);
+        const Float chance = p.random2D(sizes, p.x() + at.offset.x, p.y() + at.offset.y);
+        // A quarter of the cells is empty.
+        const Float radius =
+            (max(chance - 0.25f, Float(0.0f)) * more + least) * smoothstep(0.22f, 0.27f, chance);
+        const Float near = clamp(1.0f - (at.distance + rough) / max(radius, Float(1.0f)), 0.0f, 1.0f);
+        const Float tower = smoothstep(0.0f, 0.35f, near) * 0.7f + near * 0.3f;
+        const float left = shareLeft(cell, p.step());
+        return lerp(Float(0.2f), tower, left) * radius * (chance * 0.9f + 1.6f);
+    };
+    return max(towers("large towers", "large tower sizes", kWide, 24.0f, 30.0f),
+               towers("small towers", "small tower sizes", kNarrow, 9.0f, 17.0f));
+}
+
+// The slope by which gullies are cut. Where a divide is flat across, between steep sides, gullies cross it as
+// they come: else it would stand above both sides like a dyke.
+Vec2 withCrests(Pass& p, const Fields& f, Vec2 slope, Float steep, Float beside) {
+    const Float sides = p.read(f.sides);
+    const Float lack = smoothstep(0.55f, 0.15f, steep / max(sides, Float(0.01f))) * sides * beside;
+    Var<Float> x = p.var(slope.x), y = p.var(slope.y);
+    p.if_(lack > 0.0f, [&] {
+        constexpr int kSize = 64;
+        const float left = shareLeft(kSize, p.step());  // wide columns get the mean
+        const auto across = [&](const char* name) {
+            return lerp(Float(0.5f), p.perlin2D(name, kSize, {.4f, 1.0f}) * 1.1f, left) * lack;
+        };
+        x = slope.x + across("crests x");
+        y = slope.y + across("crests y");
+    });
+    return {x, y};
+}
+
 // Gullies, crags, dunes and towers.
 Relief detailed(Pass& p, const Fields& f) {
     const Float land = p.read(f.land), range = p.read(f.range), base = p.read(f.base);
     const Float temperature = p.read(f.temperature), moisture = p.read(f.moisture);
-    const Float inland = smoothstep(0.0f, 0.05f, land),
-                beside = smoothstep(4.0f, 40.0f, p.read(f.fromStream));
+    const Float volcanic = p.read(f.volcanic);
+    // Volcanoes are land, wherever they stand.
+    const Float inland = max(smoothstep(0.0f, 0.05f, land), smoothstep(0.05f, 0.15f, volcanic)),
+                floors = p.perlin2D("valley floors", 48, {.5f, 1.0f}) * 0.45f + 1.0f,
+                beside = smoothstep(4.0f, 40.0f, p.read(f.fromStream) * floors);
     const Float flat = smoothstep(0.25f, 0.05f, range) * (1.0f - p.read(f.canyon));
     const Float dry = dryLand(temperature, moisture);
     const Vec2 slope = p.slope(f.base);
     Var<Float> height = p.var(base);
     Var<Float> rocky = p.var(p.read(f.canyon));
     const Float steep = length(slope);
+    const Vec2 fall = withCrests(p, f, slope, steep, beside);
     const Float strength = inland * smoothstep(kSea + 2.0f, kSea + 30.0f, base) * beside *
                            (max(max(range, dry), smoothstep(0.3f, 0.9f, steep)) * 0.6f + 0.4f) *
-                           (1.0f - p.read(f.canyon) * 0.6f) * smoothstep(0.88f, 0.8f, p.read(f.volcanic));
+                           (1.0f - p.read(f.canyon) * 0.6f) * smoothstep(0.9f, 0.55f, volcanic);
+    p.if_(volcanic > 0.12f, [&] { height = height + barrancos(p, f, slope); });
     p.if_(strength > 0.0f, [&] {
         const Eroded gullies =
-            erode(p, "gullies", slope, strength,
-                  {.size = 128, .octaves = 5, .depth = 0.36f, .fullSlope = 0.9f, .gain = 0.6f});
-        // On land they do not reach the sea's level.
-        height = max(base + gullies.height, min(base, Float(kSea + 1.6f)));
+            erode(p, "gullies", fall, strength,
+                  {.size = 128, .octaves = 5, .depth = 0.37f, .fullSlope = 0.9f, .gain = 0.6f});
+        // They do not reach the level of the sea, nor that of the streams that they lead to: they are
+        // shallower where there is less room.
+        const Float lowest = max(p.read(f.streamLevel) + 1.0f, Float(kSea + 1.6f));
+        const Float room = max(height - lowest, Float(0.01f));
+        const Float share = gullies.height / room;
+        height = height + gullies.height / sqrt(share * share + 1.0f);
     });
     const Float craggy =
         (range * 0.5f + 0.5f) * smoothstep(0.5f, 1.1f, steep) * (1.0f - p.read(f.canyon)) * inland;
@@ -164,7 +235,7 @@ Relief detailed(Pass& p, const Fields& f) {
                             smoothstep(0.25f, 0.1f, land) *
                             smoothstep(-0.05f, 0.2f, p.simplex2D("karst", 256, {.4f, 1.0f})) * beside;
     p.if_(limestone > 0.0f, [&] {
-        const Float tower = landforms::towers(p) * limestone * 1.7f;
+        const Float tower = karstTowers(p) * limestone;
         height = height + tower;
         rocky = max(rocky, smoothstep(3.0f, 10.0f, tower));
     });
@@ -178,39 +249,84 @@ struct Water {
     Float wet;     // 0…1: river, lake or their bank
 };
 
-constexpr float kFall = 9.0f, kSheet = 1.6f;  // blocks: height of a waterfall, thickness of its sheet
+// Where streams are steep they come down in steps: level pools, with a fall from each to the next.
+constexpr float kFall = 9.0f, kHighFall = 27.0f;  // blocks: height of waterfalls; of those of steep streams
+constexpr float kSheet = 1.6f;                    // blocks: thickness of the sheet of falling water
+
+struct Steps {
+    Float share;  // 0…1: steps rather than an even fall
+    Float fall;   // blocks from a pool to the next
+    Float part;   // 0…1: from the lower end of a pool to the fall above it
+    Float level;  // z of the water
+    Bool isSheet;
+};
+
+// `even`: z of the water if it fell evenly; `gradient`: how steep that is.
+Steps stepsOf(Float even, Float gradient) {
+    const Float share = smoothstep(0.07f, 0.12f, gradient);
+    const Float fall = select(gradient > 0.2f, Float(kHighFall), Float(kFall));
+    const Float steps = even / fall, whole = floor(steps), part = steps - whole;
+    return {share, fall, part, lerp(even, whole * fall + 0.5f, share),
+            share > 0.5f && part > 1.0f - gradient * kSheet / fall};
+}
+
+// Where a large river meets the sea it leaves a delta: flats of silt on both sides of the shore, which its
+// arms part, at the level of the sea.
+Float withDelta(Pass& p, const Fields& f, const DrainageSample& r, Float ground) {
+    const Float land = p.read(f.land);
+    const Float delta = smoothstep(22.0f, 40.0f, r.flow) * smoothstep(210.0f, 60.0f, r.distance) *
+                        smoothstep(0.07f, 0.025f, abs(land)) * smoothstep(9.0f, 4.0f, r.level) *
+                        smoothstep(0.25f, 0.1f, p.read(f.range));
+    Var<Float> height = p.var(ground);
+    p.if_(delta > 0.0f, [&] {
+        const Float lines = abs(p.perlin2D("arms of deltas", 36, {.35f, 1.0f}));
+        const Float flats = p.perlin2D("flats of deltas", 24, {.5f, 1.0f});
+        const Float silt = clamp(ground, kSea - 2.2f + delta * 2.6f, Float(kSea + 1.5f)) + flats * 0.7f;
+        const Float arms = smoothstep(0.13f, 0.06f, lines) * smoothstep(0.1f, 0.4f, delta);
+        height = lerp(ground, silt - arms * 3.0f, smoothstep(0.0f, 0.3f, delta));
+    });
+    return height;
+}
 
 // Cuts beds and basins into ground of the given height.
-Water cut(Pass& p, const Fields& f, Float ground) {
+Water cut(Pass& p, const Fields& f, Float uncut) {
     const DrainageSample r = p.drainage(f.rivers);
     const Float land = p.read(f.land);
-    const Float rough = p.perlin2D("banks", 8, {.5f, 1.0f});
-    const Float fromBank = r.distance - r.halfWidth + rough * 0.4f;
+    const Float ground = withDelta(p, f, r, uncut);
     Var<Float> height = p.var(ground);
     Var<Int> water = p.var(Int(kSeaZ));
     Var<Float> wet = p.var(Float(0.0f));
-    p.if_(r.distance < 64.0f && land > -0.02f, [&] {
+    p.if_(r.distance < 72.0f && land > -0.02f, [&] {
         // To the coast the land, and the water with it, falls to the level of the sea.
         const Float even = min(r.level, max(p.read(f.base) - 1.0f, Float(kSea + 0.5f)));
-        // Where it is steep it falls in steps. The sheet of a fall stands in the columns next below it.
-        const Float steps = even * (1.0f / kFall), isSteep = smoothstep(0.07f, 0.12f, r.fall);
-        const Float part = steps - floor(steps);
-        const Float level = lerp(even, floor(steps) * kFall + 0.5f, isSteep);
-        const Float top =
-            select(isSteep > 0.5f && part > 1.0f - r.fall * (kSheet / kFall), level + kFall, level);
+        const Steps s = stepsOf(even, r.fall);
+        // Narrow here and wide there, with bays and points. A core stays open.
+        const Float rough = p.perlin2D("banks", 8, {.5f, 1.0f});
+        const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f}) * (r.halfWidth * 0.28f + 0.8f);
+        const Float channel = min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.3f);
+        const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;    // share: at the foot of a fall
+        const Float fromBank = channel - below * (s.fall * 0.2f + 0.8f);  // the pool that it dug
         const Float across = clamp(r.distance / max(r.halfWidth, Float(1.0f)), 0.0f, 1.0f);
-        const Float bed = level - 0.6f - (1.0f - across * across) * (r.halfWidth * 0.3f + 0.8f);
-        const Float bank = even + 1.3f + r.fall;  // above the water before a fall, too
+        const Float bed = s.level - 0.6f - (1.0f - across * across) * (r.halfWidth * 0.3f + 0.8f) -
+                          below * (s.fall * 0.16f + 1.0f);
+        // Banks slope down to the pools, with rock on both sides of a fall, which holds the water before it.
+        const Float beside = smoothstep(0.75f, 0.96f, s.part), away = max(fromBank, Float(0.0f));
+        const Float slope = s.level + 0.8f + away * (rough * 0.4f + 0.7f) + beside * (s.fall + 4.0f);
+        const Float lowered = lerp(ground, min(ground, slope), s.share * smoothstep(70.0f, 40.0f, away));
+        const Float bank = lerp(s.level + 0.8f, even + 0.9f + r.fall, lerp(Float(1.0f), beside, s.share));
         // Water above the sea needs banks; at the sea's level the ground may be lower beside it.
-        const Float raised = max(ground, lerp(bank, ground, smoothstep(0.0f, 14.0f, fromBank)));
-        const Float outside = lerp(ground, raised, clamp((level - kSea - 0.5f) * 2.0f, 0.0f, 1.0f));
-        height = select(fromBank < 0.0f, min(bed, ground), outside);
-        water = select(fromBank < 0.0f, max(Int(floor(top)), Int(kSeaZ)), Int(kSeaZ));
+        const Float raised = max(lowered, lerp(bank, lowered, smoothstep(0.0f, 14.0f, away)));
+        const Float outside = lerp(ground, raised, clamp((s.level - kSea - 0.5f) * 2.0f, 0.0f, 1.0f));
+        const Float top = select(s.isSheet && channel < 0.0f, s.level + s.fall, s.level);
+        const Bool isOpen = fromBank < 0.0f;
+        height = select(isOpen, min(bed, ground), outside);
+        water = select(isOpen, max(Int(floor(top)), Int(kSeaZ)), Int(kSeaZ));
         wet = smoothstep(12.0f, 2.0f, fromBank);
     });
     // Pools of marshes, as high as the river beside them, with rims.
+    const Float fromBank = r.distance - r.halfWidth;
     const Float marsh = smoothstep(0.0f, 0.12f, p.read(f.moisture)) * smoothstep(0.02f, 0.006f, r.fall) *
-                        smoothstep(44.0f, 26.0f, fromBank) * smoothstep(3.0f, 7.0f, fromBank);
+                        smoothstep(44.0f, 26.0f, fromBank) * smoothstep(4.0f, 8.0f, fromBank);
     p.if_(marsh > 0.0f && land > 0.02f && ground < r.level + 2.6f, [&] {
         const Float pools = p.simplex2D("marsh pools", 10, {.5f, 1.0f}) - (1.0f - marsh) * 1.5f;
         const Float level = max(min(r.level, p.read(f.base) - 1.0f), Float(kSea + 0.5f));
@@ -220,13 +336,17 @@ Water cut(Pass& p, const Fields& f, Float ground) {
         water = select(isPool, Int(floor(level)), static_cast<Int>(water));
         wet = select(isRim, Float(1.0f), static_cast<Float>(wet));
     });
-    p.if_(r.lakeDistance < 60.0f, [&] {
-        const Float fromShore = r.lakeDistance + p.simplex2D("shores", 24, {.3f, .6f, 1.0f}) * 22.0f;
+    p.if_(r.lakeDistance < 110.0f, [&] {
+        const Float fromShore = r.lakeDistance + p.simplex2D("shores", 24, {.2f, .4f, .7f, 1.0f}) * 22.0f +
+                                p.perlin2D("arms of lakes", 140, {1.0f, .8f}) * 42.0f;
         const Float shore = r.lakeLevel + 1.2f + clamp(fromShore * 0.1f, 0.0f, 2.0f);
         const Float now = height;
-        const Float outside = lerp(shore, max(now, shore), smoothstep(0.0f, 30.0f, fromShore));
+        // Rivers keep their banks up to the shore. Where the land is lower, what holds the lake slopes down.
+        const Float asBefore = max(smoothstep(0.0f, 30.0f, fromShore), static_cast<Float>(wet));
+        const Float held = lerp(max(now, shore), now, smoothstep(20.0f, 56.0f, fromShore));
+        const Float outside = lerp(shore, held, asBefore);
         const Float bed = r.lakeLevel - 0.8f - min(fromShore * -0.35f, Float(30.0f));
-        height = select(fromShore < 0.0f, bed, select(fromShore < 40.0f, outside, now));
+        height = select(fromShore < 0.0f, bed, outside);
         water = select(fromShore < 0.0f, max(Int(floor(r.lakeLevel)), Int(kSeaZ)), static_cast<Int>(water));
         wet = max(static_cast<Float>(wet), smoothstep(10.0f, 2.0f, fromShore));
     });
@@ -247,7 +367,6 @@ void reliefPass(Pass& p, const Fields& f) {
     p.set(f.water, select(isInCrater, p.read(f.craterLake), static_cast<Int>(water)));
     p.set(f.wet, select(isInCrater, Float(1.0f), w.wet));
     p.set(f.spring, static_cast<Float>(spring));
-    p.set(f.surface, Int(floor(height)));
 }
 
 }  // namespace terrane::gen::wilderness

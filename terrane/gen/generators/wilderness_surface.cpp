@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/generators/wilderness.h"
 
@@ -14,7 +16,29 @@ struct Site {
     Float height, steepness, temperature, moisture;
     Float cold;   // the temperature at the ground's height, lower on slopes that face north
     Float rough;  // of borders
+    Int surface;  // z of the highest ground block
 };
+
+constexpr int kMaxHeldStep = 4;  // wider columns are too far away for it
+
+// z of the highest ground block. Ground holds the water beside it: a column between two rivers, or a river
+// and a lake, belongs to one of them and does not know the other.
+Int heldSurface(Pass& p, const Fields& f) {
+    const int step = p.step();
+    const Int own = Int(floor(p.read(f.height)));
+    if (step > kMaxHeldStep) return own;
+    Var<Int> held = p.var(own);
+    p.if_(own >= p.read(f.water), [&] {
+        Int highest = own;
+        for (const auto& [dx, dy] : {std::pair{step, 0}, {-step, 0}, {0, step}, {0, -step}}) {
+            const Int water = p.readAt(f.water, {Int(dx), Int(dy)});
+            highest =
+                max(highest, select(Int(floor(p.readAt(f.height, {Int(dx), Int(dy)}))) < water, water, own));
+        }
+        held = highest;
+    });
+    return held;
+}
 
 Site site(Pass& p, const Fields& f) {
     const Float rough = p.perlin2DWithGrain("biome borders", 8, {.03f, .03f, .04f, .05f});
@@ -27,7 +51,8 @@ Site site(Pass& p, const Fields& f) {
             temperature,
             p.read(f.moisture) + rough,
             temperature + shaded - max(height - kSea, Float(0.0f)) * kColder,
-            rough};
+            rough,
+            heldSurface(p, f)};
 }
 
 Int biomeOf(Pass& p, const Fields& f, const Site& s) {
@@ -152,7 +177,7 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const auto is = [&](Block block, const char* name) { return block == p.block(name); };
     const Bool isSoil = is(top, "grass") || is(top, "moss") || is(top, "snow");
     const Block soil = select(isSoil, p.block("dirt"), select(is(top, "red_sand"), p.block("red_sand"), top));
-    const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.15f - smoothstep(0.0f, -0.4f, s.cold) * 0.2f;
+    const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.3f - smoothstep(0.0f, -0.4f, s.cold) * 0.2f;
     // Sand lies on dunes, not on mountains.
     const Bool isSandy = is(top, "sand") && biome == number(Biome::Desert);
     const Bool isDune = isSandy && p.read(f.range) < 0.1f && p.read(f.canyon) < 0.1f;
@@ -163,14 +188,26 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     // Stones that fall from cliffs lie below them.
     const Bool isScree = p.read(f.range) > 0.15f && s.cold < 0.0f && s.steepness > bareFrom - 0.3f && !isBare;
     const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.4f + 1.35f;
-    const Bool isUnderWater =
-        p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f && !p.read(f.isLava);
+    const Bool isUnderWater = s.surface < p.read(f.water) && p.read(f.wet) > 0.0f && !p.read(f.isLava);
     const Block bottom = landforms::riverBed(p, patches, spots);
+    // Rivers and lakes leave sand and gravel beside them, in bars here and there.
+    const Bool isBank = p.read(f.wet) > 0.75f - patches * 0.35f && s.steepness < 2.2f && !isUnderWater &&
+                        biome != number(Biome::Ocean);
+    const Bool isBar = spots + patches > 0.1f;
+    const Block bank = multiSelect({{!isBar, select(isBare, p.block("gravel"), top)},
+                                    {s.cold < -0.1f || p.read(f.range) > 0.2f, p.block("gravel")},
+                                    {p.read(f.moisture) > 0.2f, p.block("mud")}},
+                                   p.block("sand"));
+    const Bool isGravelly = isBar || isBare;
     return {multiSelect({{isUnderWater, bottom},
+                         {isBank, bank},
                          {isBare && !keepsSnow, rock},
                          {isScree && !keepsSnow, p.block("gravel")}},
                         top),
-            multiSelect({{isUnderWater, bottom}, {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil),
+            multiSelect({{isUnderWater, bottom},
+                         {isBank, select(isGravelly, p.block("gravel"), p.block("dirt"))},
+                         {isBare || s.steepness > bareFrom - 0.25f, rock}},
+                        soil),
             rock};
 }
 
@@ -187,7 +224,7 @@ Int caveTop(Pass& p, const Fields& f, const Site& s) {
     const Float below =
         select(land > -0.04f && land < 0.012f, Float(kSea - 14.0f), Float(static_cast<float>(kNoSpan)));
     const Float highest = min(select(isBesideWater, Float(kSea - 34.0f), s.height - thick), below);
-    return select(isShaft(p, f) && !isBesideWater, p.read(f.surface) + kShaftMark, Int(floor(highest)));
+    return select(isShaft(p, f) && !isBesideWater, s.surface + kShaftMark, Int(floor(highest)));
 }
 
 // The ground shows at its sides down to the columns beside, and farther beside tiles of another level.
@@ -201,6 +238,7 @@ Int hiddenBelow(Pass& p, const Fields& f) {
 
 void surfacePass(Pass& p, const Fields& f) {
     const Site s = site(p, f);
+    p.set(f.surface, s.surface);
     const Int biome = biomeOf(p, f, s);
     const Ground ground = groundOf(p, f, s, biome);
     p.set(f.biome, biome);
@@ -208,9 +246,9 @@ void surfacePass(Pass& p, const Fields& f) {
     p.set(f.soil, springGround(p, p.read(f.spring), ground.soil));
     p.set(f.rock, ground.rock);
     p.set(f.cold, s.cold);
-    const Float steepest = select(isTower(p, f), Float(2.8f), Float(1.2f));
+    const Float steepest = select(isTower(p, f), Float(2.8f), Float(1.35f));
     const Float gentle = smoothstep(steepest, steepest - 0.4f, s.steepness);
-    const Bool isDry = p.read(f.surface) >= p.read(f.water);
+    const Bool isDry = s.surface >= p.read(f.water);
     p.set(f.forest, select(isDry, gentle, Float(0.0f)));
     if (p.step() == 1) {
         p.set(f.caveTop, caveTop(p, f, s));
