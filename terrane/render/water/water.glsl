@@ -42,20 +42,6 @@ float causticsBehind(vec3 position, vec3 toPoint, vec3 view, float blocks, float
 }
 #endif
 
-// Share of white water of a side of water, which falls: threads of spray that run down it, wider here and there.
-// `distance`: blocks from the camera, where threads become too thin to be drawn.
-float sprayAt(vec3 position, vec3 normal, float distance) {
-    vec2 across = vec2(-normal.y, normal.x);
-    float u = dot(wavePosition(position), across), v = fract(position.z / 32.0) * 32.0 + 7.0 * waveSeconds();
-    float threads = 0.0, left = 1.0 / (1.0 + 0.02 * distance);
-    for (int k = 0; k < 3; ++k) {
-        float wide = float(1 << k);
-        threads += sin(u * 2.9 * wide + 1.7 * sin(v * 0.35 * wide + u * 0.8) + 2.1 * float(k)) *
-                   sin(v * 0.8 * wide + 1.3 * sin(u * 1.9 * wide)) / wide;
-    }
-    return clamp(0.58 + 0.4 * threads * left, 0.0, 0.95);
-}
-
 // Color that a layer adds, and the share of the background that it transmits.
 struct Passed {
     vec4 color, through;
@@ -113,9 +99,6 @@ Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 lev
     reflected = normalize(vec3(reflected.xy, abs(reflected.z) + 0.01));
     vec3 mirrored = skyColor(reflected) * open;
     if (hasFarFloor) seen *= lightUnder(below);
-    float spray = isTop ? 0.0 : sprayAt(position, s.normal, length(toPoint));
-    body = mix(body, 0.85 * lit, spray);
-    seen *= 1.0 - spray;
 #if WATER_DETAIL == 1
     vec3 calmer = normalize(vec3(0.4 * waves.slope, 1.0));
     vec4 shore = shoreReflection(position, reflect(view, calmer), isTop && isNearest ? mirror : 0.0);
