@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-PRESETS = ("low", "medium", "high", "ultra", "thesis")
+PRESETS = ("minimal", "low", "medium", "high", "ultra", "thesis")
 VIEW_DISTANCES = (8, 16, 32)
 HORIZONS = (0, 128, 256, 512, 1024, 2048, 4096)
 FRAMES = 7

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-PRESETS = ("low", "medium", "high", "ultra", "thesis")
+PRESETS = ("minimal", "low", "medium", "high", "ultra", "thesis")
 # As `terrane render --json` names them.
 PASSES = ("cull", "shadow map", "surfaces", "depth pyramid", "cull again", "surfaces again", "fill holes", "sky",
           "ambient occlusion", "shade", "peel", "shade layers", "god rays", "depth of field", "final")
