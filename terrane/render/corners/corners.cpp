@@ -14,7 +14,6 @@ base::Result<std::optional<CornerPrograms>> makeCornerPrograms(FrameBuilder& bui
     return made;
 }
 
-// In one pass, blended over the image.
 MaybePass makeCornerLayers(FrameBuilder& build) {
     const auto programs = TERRANE_TRY(makeCornerPrograms(build, mesh::AlphaClass::Blended));
     const SharedTargets& targets = build.frame.targets;

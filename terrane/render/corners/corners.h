@@ -21,7 +21,8 @@ struct CornerPrograms {
 base::Result<std::optional<CornerPrograms>> makeCornerPrograms(FrameBuilder& build,
                                                                mesh::AlphaClass alphaClass);
 
-// Blended faces in one pass, farthest mesh sections first.
+// Blended faces in one pass, without an order: of two faces behind each other the farther one may cover the
+// nearer.
 MaybePass makeCornerLayers(FrameBuilder& build);
 
 }  // namespace terrane::render
