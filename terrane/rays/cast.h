@@ -1,5 +1,5 @@
-// Casts many rays at once, with the widest instructions of the CPU. Each hit equals that of shared::castRay()
-// to the bit. Any thread may call it.
+// Casts many rays, one after the other, in code compiled for the instructions of the CPU. Each hit equals
+// that of shared::castRay() to the bit. Any thread may call it.
 #pragma once
 
 #include <span>

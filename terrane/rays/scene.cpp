@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <tuple>
 
 namespace terrane::rays {
 namespace {
@@ -255,6 +256,7 @@ ColumnCells buildColumn(const world::Chunk& chunk, const StopTable& stops) {
 }
 
 Scene makeScene(world::Heights heights, int levels, int sideBits) {
+    static_assert(SectionCells::kMostWords / 2 < std::tuple_size_v<decltype(Scene::freeWords)>);
     assert(levels > 0 && levels <= static_cast<int>(kMaxRayLevels) && sideBits > 1 && sideBits < 12);
     Scene scene;
     scene.heights = heights;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <optional>
+
+#include "terrane/base/result.h"
 
 namespace terrane::rays {
 namespace {
@@ -31,6 +34,7 @@ Cell cellAt(const SurfaceScene& scene, const Ray& ray, const RayHit& hit) {
         .origin = glm::dvec3(0),
         .direction = glm::dvec3(0)};
     cell.chunk = scene.chunkAt(cell.tile);
+    base::require(cell.chunk != nullptr, "forEachSurface: a tile of the scene has no chunk");
     for (int axis = 0; axis < 3; ++axis) {
         const int shift = axis < 2 ? level : 0;
         const bool isMirrored = ray.mirror[axis] != 0;
@@ -175,7 +179,7 @@ void forEachSurface(const SurfaceScene& scene, const Ray& ray,
         }
         std::stable_sort(surfaces.begin(), surfaces.end(),
                          [](const Surface& a, const Surface& b) { return a.t < b.t; });
-        if (std::any_of(surfaces.begin(), surfaces.end(), use)) return;
+        if (std::any_of(surfaces.begin(), surfaces.end(), std::ref(use))) return;
         shared::rayLeaveBox(ray, place, shared::rayBoxEnd(place.cell, hit.level, 0));
     }
 }

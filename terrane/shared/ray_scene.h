@@ -4,7 +4,7 @@
 //   header    levels, heights; for each level its grid
 //   grid      of level k: kRayEntryWords for each tile of 16×16 columns that are 2^k blocks wide, in a square
 //             window around the camera that wraps around: tile (x, y) lies at (x mod side, y mod side)
-//   column    of a tile: one word for each section, from the lowest that differs from those below it
+//   column    of a tile: one word for each section, from the highest of the equal ones at the bottom
 //   section   a sparse tree of two levels with 4³ children each, below
 //
 // A tile is in the scene (kRayTile), or its four tiles of the level below are asked (kRayDivided), or neither

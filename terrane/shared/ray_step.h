@@ -58,9 +58,6 @@ const uint kRayMiss = 7u;      // nothing stops it before its end; the rest has 
 // Directions have no smaller components: the inverse of 0 would be infinite, and infinity times 0 no number.
 const float kRayMinDirection = 1.0f / 1048576.0f;
 
-// Cells are within this many blocks of the first one, so that float holds distances between planes exactly.
-const int kRayReach = 1 << 23;
-
 // `cell`: the block where the ray begins; `inCell`: where in it, 0 to 1 with both ends, so that a ray may
 // begin on the face of a cell. `direction`: of any length, which is the unit of 1/t. `end`: the largest t.
 SHARED_ALWAYS_INLINE Ray makeRay(ivec4 cell, vec4 inCell, vec4 direction, float end) {

@@ -110,7 +110,6 @@ std::array<float, 4> expectedAt(const Place& place, const Face& face, glm::vec3 
         if (face.axis == 3) block = face.cell;
         blocks.emplace(block.x, block.y, block.z);
     }
-    // Corners of one block count four times, as do those between two.
     std::array<float, 4> sum{};
     int count = 0;
     for (const auto& [x, y, z] : blocks) {
@@ -253,6 +252,7 @@ class Shown {
         }
         std::erase_if(sections, [](const auto& entry) { return entry.second.mesh.quads.empty(); });
     }
+    void remove(world::ChunkPos pos) { sections_.erase(pos); }
     // Bytes to compare.
     std::map<std::tuple<int, int, int>, std::vector<unsigned>> words() const {
         std::map<std::tuple<int, int, int>, std::vector<unsigned>> all;
@@ -284,9 +284,23 @@ TEST(CornerLitChunks, ChangesEndAsAllAtOnce) {
         const world::ChunkPos pos{static_cast<int>(hash % kSide), static_cast<int>(hash / kSide % kSide)};
         const auto blocks = mesh::randomBlocks(mesh::Mix::Terrain, hash >> 8 & 3);
         if (hash >> 16 & 1) {
-            lights.insert_or_assign(
-                pos, makeLight(16 * pos.x, 16 * pos.y, static_cast<Lights>(hash >> 17 & 3), 1));
-            edited.setLight(pos, lights.at(pos), world::SectionSet::all(kLow));
+            // New light of some bricks, or of all.
+            const light::ChunkLight all =
+                makeLight(16 * pos.x, 16 * pos.y, static_cast<Lights>(hash >> 17 & 3), 1);
+            world::SectionSet bricks = world::SectionSet::all(kLow);
+            if (lights.contains(pos) && (hash >> 19 & 1)) {
+                bricks = {};
+                for (int number = kLow.firstSection(); number < kLow.endSection(); number += 2)
+                    bricks.add(number);
+            }
+            light::ChunkLight& light = lights.try_emplace(pos, kLow).first->second;
+            bricks.forEach([&](int number) { light.setBrick(number, all.brick(number)); });
+            edited.setLight(pos, light, bricks);
+        } else if ((hash >> 21 & 7) == 0) {
+            edited.remove(pos);
+            shown.remove(pos);
+            meshes.erase(pos);
+            lights.erase(pos);
         } else {
             const auto chunk = mesh::makeChunk(16 * pos.x, 16 * pos.y, blocks, kLow);
             mesh::MeshSectionSet set;
@@ -322,6 +336,7 @@ TEST(CornerLitChunks, TheSameLightLightsNothingAgain) {
     EXPECT_FALSE(chunks.lightNext(shapeFaces()));
     chunks.setLight({1, 1}, place.lights[8], world::SectionSet::all(kLow));
     EXPECT_TRUE(chunks.lightNext(shapeFaces())) << "its corner touches that chunk";
+    chunks.setLight({1, 1}, place.lights[0], world::SectionSet::all(kLow));
     chunks.remove({});
     EXPECT_FALSE(chunks.lightNext(shapeFaces()));
 }

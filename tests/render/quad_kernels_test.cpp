@@ -143,5 +143,31 @@ TEST_F(QuadKernelsTest, QuadsAreTestedAsOneByOne) {
     EXPECT_GT(added, 0u);
 }
 
+// A block in front of the camera, which looks toward +y: its side toward -y is seen, that toward +y is not.
+TEST(FootprintOfQuad, BacksAreThoseOfFacesThatLookAway) {
+    const std::vector<shared::ShapeFace> shapes = mesh::shapeFaces(contentBlocks());
+    const ViewMatrices matrices = viewMatrices({{8.5, -4, 8.5}, 90, 0}, 1);
+    shared::CullView view{};
+    view.viewProjection = matrices.viewProjection;
+    view.viewportSize = glm::vec2(200);
+    view.nearPlane = kNearPlane;
+    view.samples = 1;
+    const auto isBack = [&](shared::uint side, bool isWaving, bool isTwoSided) {
+        const shared::Quad quad = shared::packQuad({.x = 8, .y = 8, .z = 8, .shapeFace = side});
+        return footprintOfQuad(view, quad, shapes[side], isWaving, isTwoSided, glm::vec3(0), 1).isBack != 0;
+    };
+    constexpr shared::uint kToward = 2, kAway = 3;  // -y, +y
+    for (const shared::uint hides : {0u, 1u}) {
+        view.hidesBacks = hides;
+        EXPECT_FALSE(isBack(kToward, false, false));
+        EXPECT_TRUE(isBack(kAway, false, false));
+        EXPECT_FALSE(isBack(kAway, true, false)) << "waves may turn it";
+        EXPECT_FALSE(isBack(kToward, false, true));
+        EXPECT_EQ(isBack(kAway, false, true), hides == 1);
+        EXPECT_EQ(isBack(kAway, true, true), hides == 1);
+        EXPECT_FALSE(isBack(shared::kShapeFaceCross, false, true)) << "plants are seen from both sides";
+    }
+}
+
 }  // namespace
 }  // namespace terrane::render

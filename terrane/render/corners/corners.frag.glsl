@@ -1,4 +1,4 @@
-// Draws quads that are shaded at their corners: quad_corner.glsl. ALPHA_CLASS: opaque, tested or blended.
+// Draws quads that are shaded at their corners: corners.vert.glsl. ALPHA_CLASS: opaque, tested or blended.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/variants.h"
 

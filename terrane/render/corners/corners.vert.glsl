@@ -1,4 +1,5 @@
-// Places and shades the corner of a quad for corners.frag.glsl. ALPHA_CLASS, TINT: see quad.vert.glsl.
+// Places and shades the corner of a quad for corners.frag.glsl. ALPHA_CLASS: see shared/variants.h. TINT: see
+// block_tint.glsl.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/quads/quad_pull.glsl"
 #include "terrane/render/corners/corner_shade.glsl"

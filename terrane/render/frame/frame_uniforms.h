@@ -1,6 +1,7 @@
 // Uniforms of a frame from its input and options. It is pure; any thread may call it.
 #pragma once
 
+#include <climits>
 #include <optional>
 #include <span>
 
@@ -25,6 +26,8 @@ struct FrameInput {
     int waterAbove = 0;  // blocks of water over the camera, its own included; 0 in air
     // Most shadow tiles to draw; others follow in later frames. Single images draw all.
     std::size_t maxShadowTiles = ShadowClipmap::kAllTiles;
+    // Chunks whose changed light reaches quads that are shaded at corners in this frame; others follow.
+    int maxLitChunks = INT_MAX;
     // The frame draws only the mesh sections in view of this camera, without occlusion culling, to show
     // culling from outside. It is in the same chunk as `camera`.
     std::optional<Camera> cullingCamera = std::nullopt;

@@ -20,7 +20,7 @@ constexpr RenderOptions low() {
     return o;
 }
 
-// Without a graphics card this leaves a third of the frame of low.
+// Without a graphics card a frame takes half as long as with low.
 constexpr RenderOptions minimal() {
     RenderOptions o = low();
     o.shading = Shading::Corners;

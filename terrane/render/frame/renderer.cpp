@@ -223,7 +223,7 @@ void Renderer::draw(const FrameInput& input) {
     timer_.nextFrame();
     ring_.beginFrame();
     pipeline_.invalidate();
-    lightCorners();
+    lightCorners(input.maxLitChunks);
     FrameContext context = prepare(input);
     recordPasses(context, timer_);
     pipeline_.set({});  // code outside may clear depths
@@ -339,27 +339,47 @@ bool Renderer::setQuads(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
 
 bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
                         const mesh::MeshSectionSet& meshSections) {
+    if (meshSections == mesh::kAllMeshSections) {
+        unread_.erase(pos);
+    } else {
+        readWritten(pos);
+    }
     shareBudget();
     const bool hasRoom = setQuads(pos, mesh, meshSections);
     notePeak();
     return hasRoom;
 }
 
-// Lights quads that shaders wrote, and those whose light changed.
-void Renderer::lightCorners() {
+// Takes over quads that a shader wrote since they were reserved.
+void Renderer::readWritten(world::ChunkPos pos) {
+    if (unread_.erase(pos) > 0 && quads_.chunks().contains(pos)) setChunk(pos, quads_.meshOf(pos));
+}
+
+// Lights quads that shaders wrote, and those of up to `maxChunks` chunks whose light changed. Where there is
+// no room for more quads, they stay whole.
+void Renderer::lightCorners(int maxChunks) {
     if (!quads_.hasLight()) return;
-    for (const world::ChunkPos pos : std::exchange(unread_, {}))
-        if (quads_.chunks().contains(pos)) setChunk(pos, quads_.meshOf(pos));
+    const std::vector<world::ChunkPos> written(unread_.begin(), unread_.end());
+    for (const world::ChunkPos pos : written) readWritten(pos);
+    const std::vector<shared::ShapeFace>& shapeFaces = resources_.tables().shapeFaces;
     shareBudget();
-    while (const auto change = cornerLit_.lightNext(resources_.tables().shapeFaces)) setLitQuads(*change);
+    for (int k = 0; k < maxChunks; ++k) {
+        const auto change = cornerLit_.lightNext(shapeFaces);
+        if (!change) break;
+        if (!setLitQuads(*change) && !setLitQuads(cornerLit_.unsplit(*change, shapeFaces)))
+            base::logWarning("no room for chunk {},{} with other light", change->pos.x, change->pos.y);
+    }
     notePeak();
 }
 
 bool Renderer::setAllQuads(bool isLit, const ChunkMeshes& meshes) {
     quads_ = QuadStore({.arenaQuads = 1});  // before the new one takes memory
     quadSizes_.hasLight = isLit;
-    quads_ = QuadStore(quadSizes_);
+    QuadStoreSizes sizes = quadSizes_;
+    if (isLit) sizes.firstQuads = std::max(1u, sizes.firstQuads / 2);  // as many bytes
+    quads_ = QuadStore(sizes);
     cornerLit_.clearMeshes();
+    unread_.clear();
     meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
     forgetShadows();
     cull_.invalidate();
@@ -371,23 +391,31 @@ bool Renderer::setAllQuads(bool isLit, const ChunkMeshes& meshes) {
 // Makes the quads anew, with light at their corners or without.
 base::Result<void> Renderer::useCornerLight(bool isUsed) {
     if (isUsed == quads_.hasLight()) return {};
-    lightCorners();
+    const auto noRoom = [&] {
+        return base::fail(base::ErrorCode::OutOfResources,
+                          "no room for light at the corners of quads within {} MiB of GPU memory",
+                          budgetBytes_ >> 20);
+    };
+    lightCorners(0);
+    shareBudget();
+    // Twice as large, split, and with what growing leaves unused.
+    constexpr std::size_t kTimesLarger = 3;
+    if (isUsed && quads_.usedBytes() > quads_.maxBytes() / kTimesLarger) return noRoom();
     ChunkMeshes meshes;
     for (const auto& [pos, meshSections] : quads_.chunks()) {
         const mesh::ChunkMesh* known = cornerLit_.meshOf(pos);
         meshes.emplace_back(pos, known ? *known : quads_.meshOf(pos));
     }
     if (setAllQuads(isUsed, meshes)) return {};
-    setAllQuads(!isUsed, meshes);
-    return base::fail(base::ErrorCode::OutOfResources,
-                      "no room for light at the corners of quads within {} MiB of GPU memory",
-                      budgetBytes_ >> 20);
+    if (!setAllQuads(!isUsed, meshes)) base::logWarning("no room for all chunks that were shown before");
+    return noRoom();
 }
 
 bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes) {
     shareBudget();
+    cornerLit_.removeMesh(pos);
     const bool hasRoom = quads_.reserve(pos, meshes);
-    if (quads_.hasLight()) unread_.push_back(pos);
+    if (quads_.hasLight()) unread_.insert(pos);
     showQuads(pos, mesh::kAllMeshSections);
     notePeak();
     return hasRoom;
@@ -412,6 +440,7 @@ void Renderer::removeChunk(world::ChunkPos pos) {
     quads_.remove(pos);
     light_.remove(pos);
     cornerLit_.remove(pos);
+    unread_.erase(pos);
 }
 
 void Renderer::setViewDistance(int chunks) {

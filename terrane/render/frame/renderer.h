@@ -136,7 +136,8 @@ class Renderer {
     }
     void showQuads(world::ChunkPos pos, const mesh::MeshSectionSet& changed);
     bool setLitQuads(const CornerLitChunks::Change& change);
-    void lightCorners();
+    void readWritten(world::ChunkPos pos);
+    void lightCorners(int maxChunks);
     base::Result<void> useCornerLight(bool isUsed);
     bool setQuads(world::ChunkPos pos, const mesh::ChunkMesh& mesh, const mesh::MeshSectionSet& meshSections);
     using ChunkMeshes = std::vector<std::pair<world::ChunkPos, mesh::ChunkMesh>>;
@@ -150,8 +151,9 @@ class Renderer {
     MeshSectionTable meshSections_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> hidden_;  // chunks that are not shown
     LightStore light_;
-    CornerLitChunks cornerLit_;            // has meshes while the quads have light
-    std::vector<world::ChunkPos> unread_;  // chunks whose quads a shader writes, to be lit
+    CornerLitChunks cornerLit_;  // has meshes while the quads have light
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash>
+        unread_;  // chunks whose quads a shader writes, to be lit
     QuadResources resources_;
     TintTextures tints_;
     LandTextures land_;

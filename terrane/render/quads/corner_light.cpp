@@ -141,8 +141,13 @@ int floorOf(float value) {
 
 class Lighter {
   public:
-    Lighter(const LightAround& around, std::span<const shared::ShapeFace> shapeFaces, LitMesh& out)
-        : around_(around), shapeFaces_(shapeFaces), out_(out), isLit_(around[4] != nullptr) {}
+    Lighter(const LightAround& around, std::span<const shared::ShapeFace> shapeFaces, Splitting splitting,
+            LitMesh& out)
+        : around_(around),
+          shapeFaces_(shapeFaces),
+          splitting_(splitting),
+          out_(out),
+          isLit_(around[4] != nullptr) {}
 
     void addMeshSection(const mesh::ChunkMesh& mesh, const mesh::MeshSection& section) {
         if (isLit_) block_.read(around_, section.minZ, section.maxZ);
@@ -195,10 +200,12 @@ class Lighter {
         for (int j = 0; j <= lattice_.rows; ++j)
             for (int i = 0; i <= lattice_.columns; ++i)
                 lattice_.at(i, j) = meanAround(corner(glm::vec2(i, j) / extent), axis, layer);
-        split(lattice_, {0, lattice_.columns, 0, lattice_.rows}, [&](Rectangle r) {
+        const auto addPart = [&](Rectangle r) {
             add(part(quad, u, v, r), {packed(lattice_.at(r.i0, r.j0)), packed(lattice_.at(r.i1, r.j0)),
                                       packed(lattice_.at(r.i0, r.j1)), packed(lattice_.at(r.i1, r.j1))});
-        });
+        };
+        const Rectangle whole{0, lattice_.columns, 0, lattice_.rows};
+        splitting_ == Splitting::On ? split(lattice_, whole, addPart) : addPart(whole);
     }
 
     static glm::ivec3 inLayer(glm::ivec3 block, glm::length_t axis, int layer) {
@@ -272,6 +279,7 @@ class Lighter {
 
     const LightAround& around_;
     std::span<const shared::ShapeFace> shapeFaces_;
+    Splitting splitting_;
     LitMesh& out_;
     bool isLit_;
     int base_ = 0;
@@ -282,12 +290,12 @@ class Lighter {
 }  // namespace
 
 LitMesh litAtCorners(const mesh::ChunkMesh& mesh, const LightAround& around,
-                     std::span<const shared::ShapeFace> shapeFaces) {
+                     std::span<const shared::ShapeFace> shapeFaces, Splitting splitting) {
     TERRANE_ZONE("light corners");
     LitMesh lit;
     lit.mesh.quads.reserve(mesh.quads.size());
     lit.light.reserve(mesh.quads.size());
-    Lighter lighter(around, shapeFaces, lit);
+    Lighter lighter(around, shapeFaces, splitting, lit);
     for (const mesh::MeshSection& section : mesh.meshSections) lighter.addMeshSection(mesh, section);
     return lit;
 }

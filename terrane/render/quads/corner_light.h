@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,11 +31,14 @@ constexpr float cornerLightTolerance(float level) {
     return 0.4f + 0.1f * level;
 }
 
+// Off: quads stay whole, where there is no room for more.
+enum class Splitting : std::uint8_t { Off, On };
+
 // Returns the mesh of a chunk with light at the corners, its quads split where needed. A corner of an upright
-// or level face has the mean of the blocks around it in the layer in front of the face, without opaque ones,
-// which are dark; oblique faces have the light of their block. Without the chunk's own light all is in full
-// daylight, as tiles of far land are. `shapeFaces`: mesh::shapeFaces().
+// or level face has the mean of the blocks around it in the layer in front of the face, without dark ones:
+// opaque blocks, and air that nothing lights. Oblique faces have the light of their block. Without the
+// chunk's own light all is in full daylight, as tiles of far land are. `shapeFaces`: mesh::shapeFaces().
 LitMesh litAtCorners(const mesh::ChunkMesh& mesh, const LightAround& around,
-                     std::span<const shared::ShapeFace> shapeFaces);
+                     std::span<const shared::ShapeFace> shapeFaces, Splitting splitting = Splitting::On);
 
 }  // namespace terrane::render

@@ -34,12 +34,27 @@ void CornerLitChunks::setLight(world::ChunkPos pos, const light::ChunkLight& lig
             lit.add(part);
     }
     chunk.light = light;
+    markAround(pos, lit);
+}
+
+void CornerLitChunks::markAround(world::ChunkPos pos, const mesh::MeshSectionSet& meshSections) {
     for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) markChanged(world::offsetBy(pos, x, y), lit);
+        for (int x = -1; x <= 1; ++x) markChanged(world::offsetBy(pos, x, y), meshSections);
+}
+
+void CornerLitChunks::removeMesh(world::ChunkPos pos) {
+    const auto found = chunks_.find(pos);
+    if (found == chunks_.end()) return;
+    found->second.mesh = {};
+    found->second.changed = {};
 }
 
 void CornerLitChunks::remove(world::ChunkPos pos) {
-    chunks_.erase(pos);
+    const auto found = chunks_.find(pos);
+    if (found == chunks_.end()) return;
+    const bool wasLit = found->second.light.has_value();
+    chunks_.erase(found);
+    if (wasLit) markAround(pos, mesh::kAllMeshSections);
 }
 
 const mesh::ChunkMesh* CornerLitChunks::meshOf(world::ChunkPos pos) const {
@@ -55,26 +70,35 @@ void CornerLitChunks::clearMeshes() {
     changed_.clear();
 }
 
-CornerLitChunks::Change CornerLitChunks::light(world::ChunkPos pos,
-                                               std::span<const shared::ShapeFace> shapeFaces) {
-    Chunk& chunk = chunks_[pos];
+LitMesh CornerLitChunks::lit(world::ChunkPos pos, const mesh::MeshSectionSet& meshSections,
+                             std::span<const shared::ShapeFace> shapeFaces, Splitting splitting) const {
     LightAround around{};
     for (int k = 0; k < 9; ++k) {
         const auto beside = chunks_.find(world::offsetBy(pos, k % 3 - 1, k / 3 - 1));
         if (beside != chunks_.end() && beside->second.light)
             around[static_cast<std::size_t>(k)] = &*beside->second.light;
     }
-    Change change{pos, std::exchange(chunk.changed, {}), {}};
-    change.lit =
-        litAtCorners(mesh::withMeshSections({}, chunk.mesh, change.meshSections), around, shapeFaces);
-    return change;
+    const mesh::ChunkMesh part = mesh::withMeshSections({}, chunks_.at(pos).mesh, meshSections);
+    return litAtCorners(part, around, shapeFaces, splitting);
+}
+
+CornerLitChunks::Change CornerLitChunks::light(world::ChunkPos pos,
+                                               std::span<const shared::ShapeFace> shapeFaces) {
+    const mesh::MeshSectionSet changed = std::exchange(chunks_[pos].changed, {});
+    return {pos, changed, lit(pos, changed, shapeFaces, Splitting::On)};
+}
+
+CornerLitChunks::Change CornerLitChunks::unsplit(const Change& change,
+                                                 std::span<const shared::ShapeFace> shapeFaces) const {
+    return {change.pos, change.meshSections,
+            lit(change.pos, change.meshSections, shapeFaces, Splitting::Off)};
 }
 
 std::optional<CornerLitChunks::Change> CornerLitChunks::lightNext(
     std::span<const shared::ShapeFace> shapeFaces) {
     while (!changed_.empty()) {
-        const world::ChunkPos pos = changed_.back();
-        changed_.pop_back();
+        const world::ChunkPos pos = changed_.front();
+        changed_.pop_front();
         const auto found = chunks_.find(pos);
         if (found != chunks_.end() && !found->second.changed.isEmpty()) return light(pos, shapeFaces);
     }

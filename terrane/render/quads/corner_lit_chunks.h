@@ -2,7 +2,9 @@
 // to be lit again, and their quads with light. The renderer uses it on the context's thread.
 #pragma once
 
+#include <deque>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -15,11 +17,14 @@ namespace terrane::render {
 
 class CornerLitChunks {
   public:
+    static constexpr int kPerFrame = 16;  // 2 ms
+
     // Replaces these mesh sections of a chunk by those of `mesh`, which has no others.
     void setMesh(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
                  const mesh::MeshSectionSet& meshSections = mesh::kAllMeshSections);
     // `bricks`: those that may differ from the last call.
     void setLight(world::ChunkPos pos, const light::ChunkLight& light, const world::SectionSet& bricks);
+    void removeMesh(world::ChunkPos pos);
     void remove(world::ChunkPos pos);
 
     // Forgets all meshes. Light stays.
@@ -31,9 +36,11 @@ class CornerLitChunks {
         mesh::MeshSectionSet meshSections;
         LitMesh lit;
     };
-    // Lights what changed since the last call: of one chunk, or of the next one that has changes.
+    // Lights what changed since the last call: of one chunk, or of the one whose changes are oldest.
     Change light(world::ChunkPos pos, std::span<const shared::ShapeFace> shapeFaces);
     std::optional<Change> lightNext(std::span<const shared::ShapeFace> shapeFaces);
+    // Returns the same change with as few quads as the mesher made.
+    Change unsplit(const Change& change, std::span<const shared::ShapeFace> shapeFaces) const;
     // Returns the mesh of a chunk as it was set; null if there is none.
     const mesh::ChunkMesh* meshOf(world::ChunkPos pos) const;
 
@@ -45,9 +52,12 @@ class CornerLitChunks {
     };
 
     void markChanged(world::ChunkPos pos, const mesh::MeshSectionSet& meshSections);
+    void markAround(world::ChunkPos pos, const mesh::MeshSectionSet& meshSections);
+    LitMesh lit(world::ChunkPos pos, const mesh::MeshSectionSet& meshSections,
+                std::span<const shared::ShapeFace> shapeFaces, Splitting splitting) const;
 
     std::unordered_map<world::ChunkPos, Chunk, world::ChunkPosHash> chunks_;
-    std::vector<world::ChunkPos> changed_;  // some may be gone, or lit again
+    std::deque<world::ChunkPos> changed_;  // some may be gone, or lit again
 };
 
 }  // namespace terrane::render

@@ -120,12 +120,19 @@ std::span<shared::Quad> QuadStore::quadsOnCpu(std::size_t arena) {
     return a.onCpu;
 }
 
-mesh::ChunkMesh QuadStore::meshOf(world::ChunkPos pos) {
+mesh::ChunkMesh QuadStore::meshOf(world::ChunkPos pos) const {
     mesh::ChunkMesh mesh;
     for (const mesh::MeshSection& stored : meshSectionsOf(pos)) {
         const std::uint32_t first = mesh::firstQuad(stored), count = mesh::quadCount(stored);
-        const std::span<const shared::Quad> quads =
-            quadsOnCpu(ranges_.arenaOf(first)).subspan(ranges_.offsetOf(first), count);
+        const Arena& arena = arenas_[ranges_.arenaOf(first)];
+        const std::uint32_t offset = ranges_.offsetOf(first);
+        std::vector<shared::Quad> quads(count);
+        if (arena.onCpu.empty()) {
+            arena.buffer.download(std::size_t{offset} * shared::kQuadBytes,
+                                  std::as_writable_bytes(std::span(quads)));
+        } else {
+            std::copy_n(arena.onCpu.begin() + offset, count, quads.begin());
+        }
         mesh.meshSections.push_back(mesh::movedTo(static_cast<std::uint32_t>(mesh.quads.size()), stored));
         for (const shared::Quad quad : quads)
             mesh.quads.push_back({quad.word0, quad.word1 & ~(shared::kQuadSeen | shared::kQuadNew)});

@@ -1,10 +1,10 @@
 // The quads of all visible chunks in a few GPU buffers (arenas): one binding and one draw call for each arena
 // and draw bucket, whatever the number of chunks. The renderer uses it on the context's thread.
 //
-// The first arena begins with 8 MiB (less in a small budget) and doubles up to 256 MiB, or to the limit that
-// a shader can reach if that is less (128 MiB in Mesa's software renderer: a landscape at view distance 55).
-// Further arenas are added without a copy. The quads of a mesh section are in one arena. No growth takes the
-// buffers beyond setMaxBytes(), including the temporary copy of a doubling.
+// The first arena begins with 8 MiB (less in a small budget), light included, and doubles up to 256 MiB, or
+// to the limit that a shader can reach if that is less (128 MiB in Mesa's software renderer: a landscape at
+// view distance 55). Further arenas are added without a copy. The quads of a mesh section are in one arena.
+// No growth takes the buffers beyond setMaxBytes(), including the temporary copy of a doubling.
 //
 // All writes and copies are commands in the stream of the context, so a frame uses a mesh section's quads
 // before or after a change, never a mixture, and nothing waits for the GPU. A chunk's mesh sections are
@@ -71,6 +71,7 @@ class QuadStore {
 
     // Limits the size of all buffers from now on; they stay as large as they are.
     void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }
+    std::size_t maxBytes() const { return maxBytes_; }
 
     // Replaces the quads of these mesh sections; `mesh` has none of others. Grows when the arenas are full.
     // Returns false if they cannot grow further, or lists of draws would be too long: the mesh sections then
@@ -91,7 +92,7 @@ class QuadStore {
     // Returns the mesh sections of a chunk; the result is empty if it has no quads.
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const;
     // Returns the quads of a chunk as they were set, or as a shader wrote them. May wait for the GPU.
-    mesh::ChunkMesh meshOf(world::ChunkPos pos);
+    mesh::ChunkMesh meshOf(world::ChunkPos pos) const;
     bool hasLight() const { return hasLight_; }
     gpu::ArenaBuffers buffers() const;  // until the next change
     // Returns the quads of an arena in memory, for culling on the CPU, which changes their bits. The first

@@ -10,7 +10,7 @@ namespace terrane::render {
 namespace {
 
 // The grid is too coarse for the glow around the sun or moon: the sky is computed for each pixel so far from
-// it, in blocks on the image plane one block ahead.
+// it. In blocks on the image plane, one block ahead, in the middle of the image; that is 11°.
 constexpr float kGlow = 0.2f;
 
 // The pixels of the sun or moon and of the glow around it; empty if they are not in view.
@@ -23,7 +23,9 @@ ScreenRect glowRect(const FrameContext& context) {
     const glm::vec2 screen(glm::dot(at, view.across) / glm::dot(view.across, view.across),
                            glm::dot(at, view.up) / glm::dot(view.up, view.up));
     const glm::vec2 size(context.frame.spec.size);
-    const glm::vec2 reach(kGlow / glm::length(view.across), kGlow / glm::length(view.up));
+    // Angles are wider aside.
+    const float glow = kGlow * (1 + glm::dot(at, at));
+    const glm::vec2 reach(glow / glm::length(view.across), glow / glm::length(view.up));
     const auto pixel = [&](glm::vec2 place) {
         return glm::ivec2(glm::clamp((0.5f + 0.5f * place) * size, glm::vec2(0), size));
     };

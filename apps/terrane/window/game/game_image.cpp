@@ -86,6 +86,7 @@ render::FrameInput frameInputOf(const GameState& game) {
     input.waterAbove = game::waterAbove(parts.session, game.player.pose().position);
     input.figures = game.remote.others.figures;
     input.maxShadowTiles = render::ShadowClipmap::kTilesPerFrame;
+    input.maxLitChunks = render::CornerLitChunks::kPerFrame;
     if (game.debug.isAbove) {
         const int viewDistance = parts.view.viewDistance();
         input.cullingCamera = input.camera;

@@ -130,6 +130,7 @@ base::Result<void> TitleBackground::draw(glm::ivec2 windowSize, double seconds, 
     input.fogDistance = view::fogDistance(world_->view().visibleDistance());
     input.timeSeconds = static_cast<float>(isStill ? 0 : seconds_);
     input.maxShadowTiles = render::ShadowClipmap::kTilesPerFrame;
+    input.maxLitChunks = render::CornerLitChunks::kPerFrame;
     world_->renderer().draw(input);
     world_->renderer().presentToWindow(windowSize);
     return {};
