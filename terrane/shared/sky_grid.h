@@ -1,4 +1,4 @@
-// The grid of cells over the screen at which the sky is computed: render/sky/direct_sky.h.
+// The grid of cells over the screen at which the sky is computed: render/corners/corner_sky.h.
 #ifndef TERRANE_SHARED_SKY_GRID_H
 #define TERRANE_SHARED_SKY_GRID_H
 

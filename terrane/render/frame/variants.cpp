@@ -410,8 +410,8 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
          [] { return definesOf(std::vector<FigureVariant>{{QuadPass::Shadows}}); }},
         {"corners/corners.vert", [] { return definesOf(CornersVariant::all()); }},
         {"corners/corners.frag", [] { return definesOf(CornersVariant::all()); }},
-        {"sky/sky_grid.frag", [] { return definesOf(SkyGridVariant::all()); }},
-        {"sky/sky_grid.vert", [] { return definesOf(SkyGridVariant::all()); }},
+        {"corners/corner_sky.frag", [] { return definesOf(SkyGridVariant::all()); }},
+        {"corners/corner_sky.vert", [] { return definesOf(SkyGridVariant::all()); }},
     };
     const auto found = std::ranges::find(kRows, shader, &Row::shader);
     return found == std::end(kRows) ? std::vector<gpu::ShaderDefines>{{}} : found->variants();

@@ -67,7 +67,7 @@ struct CornersVariant {
     static std::vector<CornersVariant> all();
 };
 
-// sky_grid.vert.glsl, sky_grid.frag.glsl
+// corner_sky.vert.glsl, corner_sky.frag.glsl
 struct SkyGridVariant {
     bool isUnderWater = false;
 

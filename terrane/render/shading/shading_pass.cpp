@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "terrane/render/corners/corner_sky.h"
 #include "terrane/render/frame/frame.h"
 #include "terrane/render/shading/pixel_mask.h"
-#include "terrane/render/sky/direct_sky.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
 
@@ -86,8 +86,8 @@ base::Result<ShadePrograms> makeShadePrograms(FrameBuilder& build) {
 // depth where they begin to fade.
 MaybePass makeSky(FrameBuilder& build) {
     const RenderOptions& options = build.options();
-    if (build.frame.isDirect()) return makeDirectSky(build);
-    SkyVariant variant{.hasClouds = options.clouds};
+    if (options.shading == Shading::Corners) return makeCornerSky(build);
+    SkyVariant variant{.hasClouds = options.clouds, .isDirect = build.frame.isDirect()};
     const auto* day = TERRANE_TRY(build.programs.fullscreen("sky/sky", variant.defines()));
     variant.isNight = true;
     const auto* night = TERRANE_TRY(build.programs.fullscreen("sky/sky", variant.defines()));

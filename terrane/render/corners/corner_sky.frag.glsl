@@ -1,4 +1,4 @@
-// The sky between the points of sky_grid.vert.glsl.
+// The sky between the points of corner_sky.vert.glsl.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/frame/tone.glsl"
 

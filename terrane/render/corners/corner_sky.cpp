@@ -1,4 +1,4 @@
-#include "terrane/render/sky/direct_sky.h"
+#include "terrane/render/corners/corner_sky.h"
 
 #include <array>
 #include <glm/common.hpp>
@@ -35,11 +35,11 @@ ScreenRect glowRect(const FrameContext& context) {
 }  // namespace
 
 // At night all pixels are computed, for the stars.
-MaybePass makeDirectSky(FrameBuilder& build) {
+MaybePass makeCornerSky(FrameBuilder& build) {
     std::array<const gpu::Program*, 2> grid{};
     for (const bool isUnderWater : {false, true})
-        grid[isUnderWater ? 1 : 0] = TERRANE_TRY(
-            build.programs.graphics("sky/sky_grid", "sky/sky_grid", SkyGridVariant{isUnderWater}.defines()));
+        grid[isUnderWater ? 1 : 0] = TERRANE_TRY(build.programs.graphics(
+            "corners/corner_sky", "corners/corner_sky", SkyGridVariant{isUnderWater}.defines()));
     const auto* day =
         TERRANE_TRY(build.programs.fullscreen("sky/sky", SkyVariant{.isDirect = true}.defines()));
     const auto* night = TERRANE_TRY(
