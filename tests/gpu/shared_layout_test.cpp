@@ -22,6 +22,7 @@
 #include "terrane/shared/mesher.h"
 #include "terrane/shared/packed_section.h"
 #include "terrane/shared/quad.h"
+#include "terrane/shared/quad_light.h"
 #include "terrane/shared/ray_scene.h"
 #include "terrane/shared/ray_step.h"
 #include "terrane/shared/shadow.h"
@@ -234,6 +235,12 @@ std::vector<StructLayout> otherLayouts() {
              false,
              sizeof(Quad),
              {{"word0", offsetof(Quad, word0)}, {"word1", offsetof(Quad, word1)}}},
+            {"QuadLight",
+             "quad_light.h",
+             false,
+             sizeof(shared::QuadLight),
+             {{"corners01", offsetof(shared::QuadLight, corners01)},
+              {"corners23", offsetof(shared::QuadLight, corners23)}}},
             {"ShapeFace",
              "shape_face.h",
              false,
