@@ -64,6 +64,15 @@ TEST(PresetMeasurement, AnIncompleteViewMayOnlySayThatLowIsTooDear) {
     EXPECT_DOUBLE_EQ(measured.framesPerSecond, 50);
 }
 
+// Low is too dear at once, the cheapest preset only when the view is complete.
+TEST(PresetMeasurement, TheCheapestPresetIsMeasuredInACompleteView) {
+    const Measured measured = measure([](double time, std::string_view preset) {
+        return Frame{0.02, preset == "low" || time > 4 ? 40.0 : 5.0, time > 4};
+    });
+    EXPECT_EQ(measured.preset, "minimal");
+    EXPECT_DOUBLE_EQ(measured.framesPerSecond, 25);
+}
+
 TEST(PresetMeasurement, ItDoesNotWaitForEver) {
     const Measured measured = measure([](double, auto) { return Frame{0.01, 10, false}; });
     EXPECT_NEAR(measured.seconds, PresetMeasurement::kMostSeconds, 1.1);

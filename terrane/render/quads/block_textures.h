@@ -47,7 +47,7 @@ std::vector<base::Image> mipmaps(const base::Image& image, world::AlphaMode alph
 using world::TextureSource;
 
 struct BlockTextures {
-    gpu::Texture2DArray array;            // layer n is registry.textures()[n]
+    gpu::Texture2DArray array;              // layer n is registry.textures()[n]
     std::vector<std::uint8_t> doublings;    // by layer: the array's side is the texture's × 2^n
     std::vector<std::uint32_t> meanColors;  // by layer, as in shared::MaterialRecord
 };

@@ -26,8 +26,7 @@ std::optional<render::PresetChoice> PresetMeasurement::add(const Frame& frame) {
 // Frames get more expensive until the view is complete: an earlier round can only show that low is already
 // too expensive.
 std::optional<render::PresetChoice> PresetMeasurement::judgeLow(double milliseconds) {
-    const bool isKnown = isViewComplete_ || seconds_ >= kMostSeconds;
-    if (milliseconds <= render::targetMilliseconds(framesPerSecond_) && !isKnown) return std::nullopt;
+    if (milliseconds <= render::targetMilliseconds(framesPerSecond_) && !isKnown()) return std::nullopt;
     lowMilliseconds_ = milliseconds;
     const render::PresetChoice choice = render::choosePreset(milliseconds, framesPerSecond_);
     preset_ = choice.preset;
@@ -37,11 +36,16 @@ std::optional<render::PresetChoice> PresetMeasurement::judgeLow(double milliseco
 // Relative costs differ between devices: a preset that is too expensive is replaced by the next cheaper one.
 std::optional<render::PresetChoice> PresetMeasurement::judgeExpected(double milliseconds) {
     const double framesPerSecond = 1000 / milliseconds;
+    if (framesPerSecond >= framesPerSecond_ && !isKnown()) return std::nullopt;
     const bool isCheapest = preset_ == &render::presets().front();
     if (framesPerSecond >= framesPerSecond_ || isCheapest) return {{preset_, framesPerSecond}};
     --preset_;  // ordered by cost
     if (preset_ != low_) return std::nullopt;
     return {{preset_, 1000 / lowMilliseconds_}};
+}
+
+bool PresetMeasurement::isKnown() const {
+    return isViewComplete_ || seconds_ >= kMostSeconds;
 }
 
 void PresetMeasurement::beginRound() {

@@ -36,6 +36,7 @@ class PresetMeasurement {
 
   private:
     void beginRound();
+    bool isKnown() const;  // whether frames will hardly get more expensive
     std::optional<render::PresetChoice> judgeLow(double milliseconds);
     std::optional<render::PresetChoice> judgeExpected(double milliseconds);
 
