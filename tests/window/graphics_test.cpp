@@ -53,7 +53,14 @@ TEST_F(GraphicsTest, TheFirstStartMeasuresWhichPresetToTake) {
         preset = program.game().settings.preset;
         EXPECT_NE(log().find("graphics: " + preset + ", for "), std::string::npos);
         expectGood(program.quit());
-        EXPECT_EQ(settingsLines(), (Lines{"hint-seen = 'true'", "preset = '" + preset + "'"}));
+        // Frames of the window of tests take 50 ms: without a graphics card even the cheapest preset is too
+        // slow.
+        if (preset == "minimal") {
+            EXPECT_EQ(settingsLines(), (Lines{"hint-seen = 'true'", "horizon = '512'", "preset = 'minimal'",
+                                              "view-distance = '8'"}));
+        } else {
+            EXPECT_EQ(settingsLines(), (Lines{"hint-seen = 'true'", "preset = '" + preset + "'"}));
+        }
     }
     Program program = startPlain({});
     program.until("the world is played", [&] { return program.isPlaying(); });

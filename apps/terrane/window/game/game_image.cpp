@@ -107,12 +107,18 @@ bool isComplete(const GameParts& parts) {
     return parts.session.pipeline().progress().complete() && parts.view.waiting() == 0;
 }
 
+// The time that the graphics card took for the newest frame that it has finished, milliseconds; 0 without
+// one: software renderers draw when they are waited for, not in the passes that asked for it.
+double cardMilliseconds(const GameParts& parts, bool isSoftware) {
+    return isSoftware ? 0 : sumOf(parts.renderer.passTimes());
+}
+
 // Call after a frame: feeds the preset measurement, and reports its choice once its shaders are in use.
 void pickPreset(const GameParts& parts, PresetPicker& preset, PlaySettings& settings, Notices& notices,
-                double seconds) {
+                double seconds, bool isSoftware) {
     if (!preset.isBusy()) return;
     const auto isDrawn = [&] { return preset.options(settings) == parts.renderer.options(); };
-    if (isDrawn()) preset.add({seconds, sumOf(parts.renderer.passTimes()), isComplete(parts)}, settings);
+    if (isDrawn()) preset.add({seconds, cardMilliseconds(parts, isSoftware), isComplete(parts)}, settings);
     if (!isDrawn()) return;
     if (auto message = preset.takeMessage()) notices.say(std::move(*message), kPresetMessageSeconds);
 }
@@ -122,8 +128,8 @@ void holdRate(GameState& game, double seconds) {
     const double target = targetMilliseconds(game);
     if (target <= 0) return game.scale.reset();
     const GameParts& parts = game.parts;
-    const double onCard = sumOf(parts.renderer.passTimes());
-    const double milliseconds = game.options.isSoftwareRenderer || onCard <= 0 ? 1000 * seconds : onCard;
+    const double onCard = cardMilliseconds(parts, game.options.isSoftwareRenderer);
+    const double milliseconds = onCard > 0 ? onCard : 1000 * seconds;
     game.scale.add({seconds, milliseconds, isComplete(parts)}, target,
                    game.settings.graphics.render.renderScale);
 }
@@ -135,7 +141,7 @@ void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
     parts.renderer.draw(frameInputOf(game));
     parts.renderer.presentToWindow(size);
     holdRate(game, seconds);
-    pickPreset(parts, game.preset, game.settings, game.notices, seconds);
+    pickPreset(parts, game.preset, game.settings, game.notices, seconds, game.options.isSoftwareRenderer);
 }
 
 }  // namespace
