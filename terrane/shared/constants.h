@@ -17,5 +17,11 @@ const uint kBlocksPerSection = 4096u;  // 16³
 // (render/frame/edge_expansion.glsl).
 const float kLongestMiter = 64.0f;
 
+// Cells of the screen at whose corners render/corners/corner_sky.cpp computes the sky, and vertices of all,
+// six a cell.
+const uint kSkyGridColumns = 40u;
+const uint kSkyGridRows = 48u;
+const uint kSkyGridVertices = 11520u;
+
 SHARED_END
 #endif

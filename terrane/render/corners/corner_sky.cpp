@@ -1,10 +1,11 @@
-#include "terrane/render/corners/corner_sky.h"
-
+// The sky with Shading::Corners: by day it is computed at the corners of a grid over the screen, and for each
+// pixel only around the sun.
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "terrane/shared/sky_grid.h"
+#include "terrane/render/corners/corners.h"
+#include "terrane/shared/constants.h"
 
 namespace terrane::render {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 // The grid is too coarse for the glow around the sun or moon: the sky is computed for each pixel so far from
 // it. In blocks on the image plane, one block ahead, in the middle of the image; that is 11°.
 constexpr float kGlow = 0.2f;
+
+static_assert(shared::kSkyGridVertices == 6 * shared::kSkyGridColumns * shared::kSkyGridRows);
 
 // The pixels of the sun or moon and of the glow around it; empty if they are not in view.
 ScreenRect glowRect(const FrameContext& context) {
@@ -39,7 +42,7 @@ MaybePass makeCornerSky(FrameBuilder& build) {
     std::array<const gpu::Program*, 2> grid{};
     for (const bool isUnderWater : {false, true})
         grid[isUnderWater ? 1 : 0] = TERRANE_TRY(build.programs.graphics(
-            "corners/corner_sky", "corners/corner_sky", SkyGridVariant{isUnderWater}.defines()));
+            "corners/corner_sky", "corners/corner_sky", CornerSkyVariant{isUnderWater}.defines()));
     const auto* day =
         TERRANE_TRY(build.programs.fullscreen("sky/sky", SkyVariant{.isDirect = true}.defines()));
     const auto* night = TERRANE_TRY(

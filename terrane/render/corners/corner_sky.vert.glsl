@@ -3,7 +3,7 @@
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/sky/sky_color.glsl"
 #include "terrane/render/frame/tone.glsl"
-#include "terrane/shared/sky_grid.h"
+#include "terrane/shared/constants.h"
 
 layout(location = 0) out vec3 outColor;
 

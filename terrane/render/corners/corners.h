@@ -25,4 +25,7 @@ base::Result<std::optional<CornerPrograms>> makeCornerPrograms(FrameBuilder& bui
 // nearer.
 MaybePass makeCornerLayers(FrameBuilder& build);
 
+// See corner_sky.cpp.
+MaybePass makeCornerSky(FrameBuilder& build);
+
 }  // namespace terrane::render

@@ -136,12 +136,12 @@ std::vector<CornersVariant> CornersVariant::all() {
     return with(with(variants, &CornersVariant::hasTint), &CornersVariant::isUnderWater);
 }
 
-gpu::ShaderDefines SkyGridVariant::defines() const {
+gpu::ShaderDefines CornerSkyVariant::defines() const {
     return defined({{"UNDER_WATER", isUnderWater}});
 }
 
-std::vector<SkyGridVariant> SkyGridVariant::all() {
-    return with(std::vector<SkyGridVariant>{{}}, &SkyGridVariant::isUnderWater);
+std::vector<CornerSkyVariant> CornerSkyVariant::all() {
+    return with(std::vector<CornerSkyVariant>{{}}, &CornerSkyVariant::isUnderWater);
 }
 
 gpu::ShaderDefines ShadowVariant::defines() const {
@@ -410,8 +410,8 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
          [] { return definesOf(std::vector<FigureVariant>{{QuadPass::Shadows}}); }},
         {"corners/corners.vert", [] { return definesOf(CornersVariant::all()); }},
         {"corners/corners.frag", [] { return definesOf(CornersVariant::all()); }},
-        {"corners/corner_sky.frag", [] { return definesOf(SkyGridVariant::all()); }},
-        {"corners/corner_sky.vert", [] { return definesOf(SkyGridVariant::all()); }},
+        {"corners/corner_sky.frag", [] { return definesOf(CornerSkyVariant::all()); }},
+        {"corners/corner_sky.vert", [] { return definesOf(CornerSkyVariant::all()); }},
     };
     const auto found = std::ranges::find(kRows, shader, &Row::shader);
     return found == std::end(kRows) ? std::vector<gpu::ShaderDefines>{{}} : found->variants();

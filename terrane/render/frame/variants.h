@@ -68,11 +68,11 @@ struct CornersVariant {
 };
 
 // corner_sky.vert.glsl, corner_sky.frag.glsl
-struct SkyGridVariant {
+struct CornerSkyVariant {
     bool isUnderWater = false;
 
     gpu::ShaderDefines defines() const;
-    static std::vector<SkyGridVariant> all();
+    static std::vector<CornerSkyVariant> all();
 };
 
 struct ShadowVariant {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "terrane/render/corners/corner_sky.h"
+#include "terrane/render/corners/corners.h"
 #include "terrane/render/frame/frame.h"
 #include "terrane/render/shading/pixel_mask.h"
 #include "terrane/shared/bindings.h"

@@ -109,28 +109,27 @@ bool isComplete(const GameParts& parts) {
 
 // The time that the graphics card took for the newest frame that it has finished, milliseconds; 0 without
 // one: software renderers draw when they are waited for, not in the passes that asked for it.
-double cardMilliseconds(const GameParts& parts, bool isSoftware) {
-    return isSoftware ? 0 : sumOf(parts.renderer.passTimes());
+double cardMilliseconds(const GameState& game) {
+    return game.options.isSoftwareRenderer ? 0 : sumOf(game.parts.renderer.passTimes());
 }
 
 // Call after a frame: feeds the preset measurement, and reports its choice once its shaders are in use.
-void pickPreset(const GameParts& parts, PresetPicker& preset, PlaySettings& settings, Notices& notices,
-                double seconds, bool isSoftware) {
+void pickPreset(GameState& game, double seconds) {
+    PresetPicker& preset = game.preset;
     if (!preset.isBusy()) return;
-    const auto isDrawn = [&] { return preset.options(settings) == parts.renderer.options(); };
-    if (isDrawn()) preset.add({seconds, cardMilliseconds(parts, isSoftware), isComplete(parts)}, settings);
+    const auto isDrawn = [&] { return preset.options(game.settings) == game.parts.renderer.options(); };
+    if (isDrawn()) preset.add({seconds, cardMilliseconds(game), isComplete(game.parts)}, game.settings);
     if (!isDrawn()) return;
-    if (auto message = preset.takeMessage()) notices.say(std::move(*message), kPresetMessageSeconds);
+    if (auto message = preset.takeMessage()) game.notices.say(std::move(*message), kPresetMessageSeconds);
 }
 
 // Call after a frame.
 void holdRate(GameState& game, double seconds) {
     const double target = targetMilliseconds(game);
     if (target <= 0) return game.scale.reset();
-    const GameParts& parts = game.parts;
-    const double onCard = cardMilliseconds(parts, game.options.isSoftwareRenderer);
+    const double onCard = cardMilliseconds(game);
     const double milliseconds = onCard > 0 ? onCard : 1000 * seconds;
-    game.scale.add({seconds, milliseconds, isComplete(parts)}, target,
+    game.scale.add({seconds, milliseconds, isComplete(game.parts)}, target,
                    game.settings.graphics.render.renderScale);
 }
 
@@ -141,7 +140,7 @@ void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
     parts.renderer.draw(frameInputOf(game));
     parts.renderer.presentToWindow(size);
     holdRate(game, seconds);
-    pickPreset(parts, game.preset, game.settings, game.notices, seconds, game.options.isSoftwareRenderer);
+    pickPreset(game, seconds);
 }
 
 }  // namespace

@@ -53,13 +53,6 @@ void PresetMeasurement::beginRound() {
     roundSeconds_ = 0;
 }
 
-// Where even the cheapest preset takes too long, a near view saves most. What the player chose stays.
-void PresetPicker::shortenView(render::GraphicsSettings& graphics) {
-    const render::GraphicsSettings untouched;
-    if (graphics.viewDistance == untouched.viewDistance) graphics.viewDistance = kNearViewDistance;
-    if (graphics.horizon == untouched.horizon) graphics.horizon = kNearHorizon;
-}
-
 std::string messageOf(const render::PresetChoice& choice, std::string_view renderer) {
     // Drivers append versions and chips: "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA H100/PCIe/SSE2".
     const std::size_t end = std::min(renderer.find(" ("), renderer.find('/'));
@@ -74,8 +67,11 @@ void PresetPicker::add(const PresetMeasurement::Frame& frame, PlaySettings& sett
     end();
     settings.preset = choice->preset->name;
     settings.graphics = render::withPreset(settings.graphics, settings.preset, isSoftwareRenderer_);
-    if (choice->framesPerSecond < render::targetFramesPerSecond(isSoftwareRenderer_))
-        shortenView(settings.graphics);
+    // Where even the cheapest preset takes too long, a near view saves most.
+    if (choice->framesPerSecond < render::targetFramesPerSecond(isSoftwareRenderer_)) {
+        settings.graphics.viewDistance = kNearViewDistance;
+        settings.graphics.horizon = kNearHorizon;
+    }
     message_ = messageOf(*choice, deviceName_);
     base::logInfo("{}", *message_);
 }

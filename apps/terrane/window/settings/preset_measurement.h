@@ -78,8 +78,6 @@ class PresetPicker {
     std::optional<std::string> takeMessage();
 
   private:
-    static void shortenView(render::GraphicsSettings& graphics);
-
     std::string deviceName_;
     bool isSoftwareRenderer_;
     std::optional<PresetMeasurement> measurement_;  // set while measuring
