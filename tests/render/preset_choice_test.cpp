@@ -32,9 +32,12 @@ TEST(PresetChoice, TheDearestPresetThatHoldsTheTargetIsPicked) {
 
 TEST(PresetChoice, AStepTooDearIsNotPicked) {
     EXPECT_EQ(choosePreset(1.001 * targetMilliseconds(kFrames), kFrames).preset->name, "minimal");
-    EXPECT_EQ(choosePreset(1.001 * targetMilliseconds(kFrames) / costOf("medium"), kFrames).preset->name, "low");
-    EXPECT_EQ(choosePreset(1.001 * targetMilliseconds(kFrames) / costOf("high"), kFrames).preset->name, "medium");
-    EXPECT_EQ(choosePreset(1.001 * targetMilliseconds(kFrames) / costOf("ultra"), kFrames).preset->name, "high");
+    EXPECT_EQ(choosePreset(1.001 * targetMilliseconds(kFrames) / costOf("medium"), kFrames).preset->name,
+              "low");
+    EXPECT_EQ(choosePreset(1.001 * targetMilliseconds(kFrames) / costOf("high"), kFrames).preset->name,
+              "medium");
+    EXPECT_EQ(choosePreset(1.001 * targetMilliseconds(kFrames) / costOf("ultra"), kFrames).preset->name,
+              "high");
 }
 
 TEST(PresetChoice, TheCheapestIsForMachinesThatHoldNothing) {
