@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cstdint>
 #include <cstdio>
@@ -78,25 +79,40 @@ class UnderSky {
 
 enum class Depth : std::uint8_t { Whole, UnderSky };
 
-// One iteration makes 32×32 chunks in the order of rows with a new generator.
-void generateArea(benchmark::State& state, std::string_view name, ChunkPos corner = {0, 0},
-                  world::Heights heights = {}, Depth depth = Depth::Whole) {
-    constexpr int kSide = 32;
+// One iteration makes `side`² chunks from each corner, in the order of rows, with a new generator.
+void generateSquares(benchmark::State& state, const gen::GeneratorGraph& graph,
+                     std::span<const ChunkPos> corners, int side, Depth depth) {
     std::vector<world::Chunk> chunks;
     for (auto _ : state) {
         state.PauseTiming();
-        const gen::Generator generator(graphOf(name, heights), kSeed);
+        const gen::Generator generator(graph, kSeed);
         chunks.clear();
         state.ResumeTiming();
-        for (int k = 0; k < kSide * kSide; ++k) {
-            const ChunkPos pos{corner.x + k % kSide, corner.y + k / kSide};
-            chunks.push_back(depth == Depth::Whole ? generator.generate(pos)
-                                                   : generator.generateDown(pos, UnderSky()));
+        for (const ChunkPos corner : corners) {
+            for (int k = 0; k < side * side; ++k) {
+                const ChunkPos pos{corner.x + k % side, corner.y + k / side};
+                chunks.push_back(depth == Depth::Whole ? generator.generate(pos)
+                                                       : generator.generateDown(pos, UnderSky()));
+            }
         }
     }
     state.counters["chunks_per_second"] =
-        benchmark::Counter(kSide * kSide, benchmark::Counter::kIsIterationInvariantRate);
+        benchmark::Counter(static_cast<double>(chunks.size()), benchmark::Counter::kIsIterationInvariantRate);
     state.SetLabel(digestOf(chunks));
+}
+
+void generateArea(benchmark::State& state, std::string_view name, ChunkPos corner = {0, 0},
+                  world::Heights heights = {}, Depth depth = Depth::Whole) {
+    generateSquares(state, graphOf(name, heights), std::array{corner}, 32, depth);
+}
+
+// Squares some 8 km apart, on land and in the sea: the mean of a world.
+void generateSpread(benchmark::State& state, std::string_view name, world::Heights heights) {
+    constexpr int kApart = 517, kPerSide = 4;
+    std::vector<ChunkPos> corners;
+    for (int k = 0; k < kPerSide * kPerSide; ++k)
+        corners.push_back({(k % kPerSide - 2) * kApart, (k / kPerSide - 2) * kApart});
+    generateSquares(state, graphOf(name, heights), corners, 12, Depth::UnderSky);
 }
 
 BENCHMARK_CAPTURE(generateArea, overworld, "overworld")->Unit(benchmark::kMillisecond)->MinTime(3);
@@ -126,6 +142,12 @@ BENCHMARK_CAPTURE(generateArea, wilderness_under_sky, "wilderness", ChunkPos{0, 
 // Plains.
 BENCHMARK_CAPTURE(generateArea, wilderness_plains_under_sky, "wilderness", ChunkPos{-160, 250}, kOfWilderness,
                   Depth::UnderSky)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
+BENCHMARK_CAPTURE(generateSpread, continents, "continents", kTall)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
+BENCHMARK_CAPTURE(generateSpread, wilderness, "wilderness", kOfWilderness)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(2);
 BENCHMARK_CAPTURE(generateArea, flat_tall, "flat", ChunkPos{0, 0}, kTall)->Unit(benchmark::kMillisecond);

@@ -35,6 +35,7 @@ Fields::Fields(GeneratorBuilder& g)
       craterLake(g.field<Int>("crater lake")),
       isLava(g.field<Bool>("is lava")),
       base(g.field<Float>("base")),
+      fan(g.field<Float>("fan")),
       fromStream(g.field<Float>("from stream")),
       streamLevel(g.field<Float>("stream level")),
       sides(g.field<Float>("sides")),

@@ -99,6 +99,7 @@ struct Fields {
     Field<Int> craterLake;  // z of the lake of a crater, or less than all ground
     Field<Bool> isLava;     // such lakes
     Field<Float> base;      // z before gullies and rivers
+    Field<Float> fan;       // share: gravel of an alluvial fan
     // The streams around, see ValleySample: blocks to them, z.
     Field<Float> fromStream, streamLevel;
     Field<Float> sides;   // blocks a block that the sides of valleys rise here, but on divides

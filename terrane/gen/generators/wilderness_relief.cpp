@@ -87,9 +87,23 @@ Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& i
     return {rise, min(sides, Float(1.1f)) * (1.0f - canyon)};
 }
 
-}  // namespace
+// Alluvial fans: where a dry stream leaves a range, the gravel that it carried lies in a cone with the stream on
+// top, narrow between the last spurs and wide on the plain.
+struct Fan {
+    Float rise;   // blocks above the stream
+    Float share;  // 0…1: gravel
+};
 
-namespace {
+Fan fanOf(const ValleySample& v, Float range) {
+    constexpr float kHighest = 34.0f, kNarrow = 26.0f, kWide = 190.0f;  // blocks
+    constexpr float kWet = 8.0f, kDry = 5.5f;                           // flow: rivers keep their valleys
+    const Float up = smoothstep(0.01f, 0.24f, range);  // from the toe to the apex
+    const Float width = lerp(Float(kWide), Float(kNarrow), up);
+    const Float across = clamp(v.distance / width, 0.0f, 1.0f);
+    const Float share = smoothstep(kWet, kDry, v.flow) * smoothstep(0.55f, 0.3f, range);
+    return {up * (1.0f - across * across) * share * kHighest,
+            smoothstep(0.0f, 0.15f, up) * smoothstep(1.0f, 0.7f, across) * share};
+}
 
 // −1…1: below 0 behind a range, where the west wind brings no rain: its line is to the west.
 Float rainBesideRange(Pass& p, const Fields& f) {
@@ -113,7 +127,8 @@ void basePass(Pass& p, const Fields& f) {
     const Float floorWidth = sqrt(v.flow) * (1.0f - range * 0.6f) * 3.0f + ice.share * ice.main * 24.0f;
     const Float beside = max(v.distance - floorWidth, Float(0.0f));
     const Side side = sideOf(p, f, canyon, beside, ice);
-    const Float slope = v.level + 1.6f + side.rise;
+    const Fan fan = fanOf(v, range);
+    const Float slope = v.level + 1.6f + smoothMax(side.rise, fan.rise, 4.0f);
     // Where there are no streams; beyond the columns that see them, the mean height of land between them.
     Float plain = kSea + 2.0f + land * 30.0f;
     if (p.step() > kMaxValleyStep)
@@ -140,6 +155,7 @@ void basePass(Pass& p, const Fields& f) {
     p.set(f.craterLake, volcano.lake);
     p.set(f.isLava, volcano.isLava && volcano.lake > -kNoSpan);
     p.set(f.base, static_cast<Float>(ground));
+    p.set(f.fan, fan.share * smoothstep(0.05f, 0.1f, land));
     p.set(f.fromStream, v.distance);
     p.set(f.streamLevel, v.level);
     p.set(f.sides, side.steep * smoothstep(kFarthest, kFar, v.distance));

@@ -187,6 +187,13 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
                              select(p.read(f.rocky) > 0.4f, spots * 0.2f + 0.6f, bareFrom + sandFrom));
     // Stones that fall from cliffs lie below them.
     const Bool isScree = p.read(f.range) > 0.15f && s.cold < 0.0f && s.steepness > bareFrom - 0.3f && !isBare;
+    // Channels that water left, and what the next flood has not reached yet.
+    const Float fan = p.read(f.fan);
+    Var<Bool> isFan = p.var(Bool(false));
+    p.if_(fan > 0.1f && !isBare, [&] {
+        const Float lines = abs(p.perlin2D("channels of fans", 24, {.4f, 1.0f}));
+        isFan = fan > smoothstep(0.05f, 0.3f, lines) * 0.5f + patches * 0.25f + 0.3f;
+    });
     const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.4f + 1.35f;
     const Bool isUnderWater = s.surface < p.read(f.water) && p.read(f.wet) > 0.0f && !p.read(f.isLava);
     const Block bottom = landforms::riverBed(p, patches, spots);
@@ -202,7 +209,7 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     return {multiSelect({{isUnderWater, bottom},
                          {isBank, bank},
                          {isBare && !keepsSnow, rock},
-                         {isScree && !keepsSnow, p.block("gravel")}},
+                         {(isScree || static_cast<Bool>(isFan)) && !keepsSnow, p.block("gravel")}},
                         top),
             multiSelect({{isUnderWater, bottom},
                          {isBank, select(isGravelly, p.block("gravel"), p.block("dirt"))},
@@ -249,7 +256,7 @@ void surfacePass(Pass& p, const Fields& f) {
     const Float steepest = select(isTower(p, f), Float(2.8f), Float(1.35f));
     const Float gentle = smoothstep(steepest, steepest - 0.4f, s.steepness);
     const Bool isDry = s.surface >= p.read(f.water);
-    p.set(f.forest, select(isDry, gentle, Float(0.0f)));
+    p.set(f.forest, select(isDry, gentle * (1.0f - p.read(f.fan) * 0.6f), Float(0.0f)));
     if (p.step() == 1) {
         p.set(f.caveTop, caveTop(p, f, s));
     } else {
