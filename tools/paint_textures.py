@@ -305,6 +305,16 @@ def water():
     return settled(Image(shade), (34, 98, 146))
 
 
+def white_water(columns: int, rows: int):
+    """Falling water: streaks of different brightness, long where there are few `rows`; as many of both is foam."""
+    def shade(x, y):
+        fine = smooth(611, x, y, columns, rows) - 0.5
+        wide = smooth(612, x, y, columns // 2, rows) - 0.5
+        value = min(1, max(0, 0.66 + 0.9 * fine + 0.7 * wide))
+        return (*mix((150, 194, 218), (252, 254, 255), value), 196 + round(56 * value))
+    return Image(shade)
+
+
 def missing():
     return Image(lambda x, y: (255, 0, 255) if (x // 4 + y // 4) % 2 else (0, 0, 0))
 
@@ -345,6 +355,8 @@ TEXTURES = {
     "lamp_blue": (lambda: lamp((44, 98, 232)), "glow", True),
     "cyan_glass": (cyan_glass, "blend", True),
     "water": (water, "blend", True),
+    "white_water_side": (lambda: white_water(8, 1), "blend", True),
+    "white_water_top": (lambda: white_water(8, 8), "blend", True),
     "red_sand": (lambda: sand(land.RED_SAND, (186, 106, 60)), "opaque", True),
     "mossy_stone": (lambda: land.mossy_stone(stone()), "opaque", True),
     "coal_ore": (lambda: land.ore(stone(), land.COAL), "opaque", True),

@@ -21,10 +21,17 @@ constexpr int kSkyReach = 40;  // blocks above the ears that are searched for a 
 constexpr double kCalm = -10, kStormy = 120, kLeastWind = 0.15;
 constexpr int kStep = 2;        // between the columns that are searched for water
 constexpr int kWaterDepth = 5;  // blocks above and below the ears
-constexpr float kLakeWeight = 0.012f, kStreamWeight = 0.06f;  // volume for each surface found
+// Volume for each surface found.
+constexpr float kLakeWeight = 0.012f, kStreamWeight = 0.06f, kFallWeight = 0.2f;
 
 bool isWater(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos) {
     return blocks.type(world.block(pos)).shape == world::Shape::Liquid;
+}
+
+// Water that falls stands in blocks that are no liquid.
+bool isFall(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos) {
+    const world::BlockType& type = blocks.type(world.block(pos));
+    return type.sound == world::SoundMaterial::Water && type.shape != world::Shape::Liquid;
 }
 
 bool seesSky(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos from) {
@@ -43,13 +50,13 @@ float openness(const world::World& world, const world::BlockRegistry& blocks, wo
     return static_cast<float>(open) / static_cast<float>(kColumns.size());
 }
 
-// The highest surface of water in a column near the ears.
+// The highest surface of water in a column near the ears, or of a waterfall, whose sides are heard.
 std::optional<world::BlockPos> surfaceIn(const world::World& world, const world::BlockRegistry& blocks,
                                          world::BlockPos column) {
     bool isAir = false;
     for (int z = column.z + kWaterDepth; z >= column.z - kWaterDepth; --z) {
         const world::BlockPos pos{column.x, column.y, z};
-        if (isAir && isWater(world, blocks, pos)) return pos;
+        if ((isAir && isWater(world, blocks, pos)) || isFall(world, blocks, pos)) return pos;
         isAir = world.block(pos) == world::kAir;
     }
     return std::nullopt;
@@ -65,7 +72,10 @@ void addWater(Ambience& ambience, const world::World& world, const world::BlockR
             if (!found) continue;
             const glm::dvec3 at(found->x + 0.5, found->y + 0.5, found->z + 1);
             if (glm::distance(at, ears) > kWaterReach) continue;
-            ambience.water += world.blockState(*found) != 0 ? kStreamWeight : kLakeWeight;
+            const bool flows = world.blockState(*found) != 0;
+            ambience.water += isFall(world, blocks, *found) ? kFallWeight
+                              : flows                       ? kStreamWeight
+                                                            : kLakeWeight;
             if (glm::distance(at, ears) >= nearest) continue;
             nearest = glm::distance(at, ears);
             ambience.waterAt = at;

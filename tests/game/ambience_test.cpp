@@ -66,6 +66,17 @@ TEST_F(AmbienceTest, CoveredWaterIsNotHeard) {
     EXPECT_EQ(at({8, 8, 72}).water, 0);
 }
 
+TEST_F(AmbienceTest, FallsAreLouderThanStreams) {
+    fill({10, 4, 69}, {12, 12, 69}, "water");
+    for (int y = 4; y <= 12; ++y)
+        for (int x = 10; x <= 12; ++x) world::putState(world_, {x, y, 69}, 3);
+    const float stream = at({2, 8, 72}).water;
+    ASSERT_GT(stream, 0);
+    fill({10, 8, 70}, {10, 8, 90}, "white_water");
+    EXPECT_GT(at({2, 8, 72}).water, stream);
+    EXPECT_GT(at({2, 8, 84}).water, 0) << "along its whole height";
+}
+
 TEST_F(AmbienceTest, StreamsAreLouderThanLakes) {
     fill({10, 4, 69}, {12, 12, 69}, "water");
     const float lake = at({8, 8, 72}).water;

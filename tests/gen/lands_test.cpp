@@ -49,7 +49,7 @@ constexpr Land kLands[] = {{"continents", "mountains", 1, {231, -118}},
                            {"wilderness", "canyons", 1, {-88, 30}},
                            {"wilderness", "volcano", 1, {48, 3}},
                            {"wilderness", "valley", 1, {30, 55}},
-                           {"wilderness", "falls", 1, {799, 209}},
+                           {"wilderness", "falls", 1, {-57, 216}},
                            {"wilderness", "karst", 1, {-14, 40}},
                            {"wilderness", "caves", 1, {-27, 52}},
                            {"wilderness", "shafts", 1, {-31, 43}},
@@ -78,9 +78,9 @@ class Lands : public testing::TestWithParam<Land> {
         }
     }
 
-    bool isLiquid(BlockId block) const { return block == water || block == lava; }
+    bool isLiquid(BlockId block) const { return block == water || block == white || block == lava; }
 
-    const BlockId water = idOf("water"), lava = idOf("lava"), ice = idOf("ice");
+    const BlockId water = idOf("water"), white = idOf("white_water"), lava = idOf("lava"), ice = idOf("ice");
     Area area;
     const int bottom = area.heights().bottom, top = area.heights().top;
 };

@@ -162,6 +162,26 @@ TEST(WildernessWater, IsHeldByItsBanks) {
     }
 }
 
+// White water falls from pool to pool: below each block of it is more, water or ground.
+TEST(WildernessWater, FallsAreWhiteDownToTheirPools) {
+    const Area area(generatorOf("wilderness", 1), {-57, 216}, 3);
+    const BlockId white = idOf("white_water"), water = idOf("water");
+    int blocks = 0, onWater = 0;
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 48; ++x) {
+            for (int z = 1; z < 400; ++z) {
+                if (area.at(x, y, z) != white) continue;
+                const BlockId below = area.at(x, y, z - 1);
+                ASSERT_NE(below, world::kAir) << area.where(x, y, z);
+                ++blocks;
+                onWater += below == water;
+            }
+        }
+    }
+    EXPECT_GT(blocks, 60);
+    EXPECT_GT(onWater, 6) << "foam, and falls that end in their pools";
+}
+
 // A column of each kind of place that shows that it is there, within 8 km.
 TEST(WildernessPlaces, AreAllWithinReach) {
     constexpr int kLevel = 4, kTiles = 32;  // 16 blocks a column, 256 a tile

@@ -43,6 +43,7 @@ Fields::Fields(GeneratorBuilder& g)
       rocky(g.field<Float>("rocky")),
       wet(g.field<Float>("wet")),
       water(g.field<Int>("water")),
+      fall(g.field<Int>("fall")),
       surface(g.field<Int>("surface")),
       placeKind(g.field<Int>("place")),
       placeX(g.field<Int>("place x")),

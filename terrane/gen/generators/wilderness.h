@@ -107,6 +107,7 @@ struct Fields {
     Field<Float> rocky;   // share: bare whatever its slope
     Field<Float> wet;     // share: in a river or lake, or on its bank
     Field<Int> water;     // z of the highest water, where the ground is lower
+    Field<Int> fall;      // blocks of white water, down from `water`: of a fall, of foam at its foot
     Field<Int> surface;   // z of the highest ground block
     // The place of this square of the land: its kind or -1, and blocks to its point.
     Field<Int> placeKind, placeX, placeY;

@@ -89,9 +89,11 @@ Block landBlock(Pass& p, const Fields& f) {
     p.if_(
         z <= p.read(f.surface), [&] { block = earth(p, f); },
         [&] {
-            const Bool isIce = z == water && p.read(f.cold) < -0.7f;
-            const Block liquid =
-                multiSelect({{p.read(f.isLava), p.block("lava")}, {isIce, p.block("ice")}}, p.block("water"));
+            const Bool isWhite = z > water - p.read(f.fall), isFrozen = p.read(f.cold) < -0.7f;
+            const Block liquid = multiSelect({{p.read(f.isLava), p.block("lava")},
+                                              {isFrozen && (z == water || isWhite), p.block("ice")},
+                                              {isWhite, p.block("white_water")}},
+                                             p.block("water"));
             Var<Block> open = p.var(select(z <= water, liquid, p.block("air")));
             if (p.step() <= kMaxArchStep) {
                 p.if_(z >= p.read(f.archLow) && z <= p.read(f.archHigh), [&] { open = strata(p, f); });

@@ -87,8 +87,8 @@ Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& i
     return {rise, min(sides, Float(1.1f)) * (1.0f - canyon)};
 }
 
-// Alluvial fans: where a dry stream leaves a range, the gravel that it carried lies in a cone with the stream on
-// top, narrow between the last spurs and wide on the plain.
+// Alluvial fans: where a dry stream leaves a range, the gravel that it carried lies in a cone with the stream
+// on top, narrow between the last spurs and wide on the plain.
 struct Fan {
     Float rise;   // blocks above the stream
     Float share;  // 0…1: gravel
@@ -97,7 +97,7 @@ struct Fan {
 Fan fanOf(const ValleySample& v, Float range) {
     constexpr float kHighest = 34.0f, kNarrow = 26.0f, kWide = 190.0f;  // blocks
     constexpr float kWet = 8.0f, kDry = 5.5f;                           // flow: rivers keep their valleys
-    const Float up = smoothstep(0.01f, 0.24f, range);  // from the toe to the apex
+    const Float up = smoothstep(0.01f, 0.24f, range);                   // from the toe to the apex
     const Float width = lerp(Float(kWide), Float(kNarrow), up);
     const Float across = clamp(v.distance / width, 0.0f, 1.0f);
     const Float share = smoothstep(kWet, kDry, v.flow) * smoothstep(0.55f, 0.3f, range);
@@ -263,11 +263,13 @@ struct Water {
     Float height;  // of the ground
     Int water;     // z of the highest water where the ground is lower
     Float wet;     // 0…1: river, lake or their bank
+    Int fall;      // see Fields::fall
 };
 
 // Where streams are steep they come down in steps: level pools, with a fall from each to the next.
 constexpr float kFall = 9.0f, kHighFall = 27.0f;  // blocks: height of waterfalls; of those of steep streams
 constexpr float kSheet = 1.6f;                    // blocks: thickness of the sheet of falling water
+constexpr float kFoam = 4.5f;                     // blocks before it that are white
 
 struct Steps {
     Float share;  // 0…1: steps rather than an even fall
@@ -312,6 +314,7 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
     Var<Float> height = p.var(ground);
     Var<Int> water = p.var(Int(kSeaZ));
     Var<Float> wet = p.var(Float(0.0f));
+    Var<Int> fall = p.var(Int(0));
     p.if_(r.distance < 72.0f && land > -0.02f, [&] {
         // To the coast the land, and the water with it, falls to the level of the sea.
         const Float even = min(r.level, max(p.read(f.base) - 1.0f, Float(kSea + 0.5f)));
@@ -333,11 +336,15 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         // Water above the sea needs banks; at the sea's level the ground may be lower beside it.
         const Float raised = max(lowered, lerp(bank, lowered, smoothstep(0.0f, 14.0f, away)));
         const Float outside = lerp(ground, raised, clamp((s.level - kSea - 0.5f) * 2.0f, 0.0f, 1.0f));
-        const Float top = select(s.isSheet && channel < 0.0f, s.level + s.fall, s.level);
+        const Bool isSheet = s.isSheet && channel < 0.0f;
+        const Float top = select(isSheet, s.level + s.fall, s.level);
         const Bool isOpen = fromBank < 0.0f;
         height = select(isOpen, min(bed, ground), outside);
         water = select(isOpen, max(Int(floor(top)), Int(kSeaZ)), Int(kSeaZ));
         wet = smoothstep(12.0f, 2.0f, fromBank);
+        const Float foam = rough * 2.0f + (kSheet + kFoam);
+        const Bool isFoam = s.share > 0.5f && isOpen && s.part > 1.0f - r.fall * foam / s.fall;
+        fall = select(isSheet, Int(floor(top)) - Int(floor(s.level)), select(isFoam, Int(1), Int(0)));
     });
     // Pools of marshes, as high as the river beside them, with rims.
     const Float fromBank = r.distance - r.halfWidth;
@@ -365,8 +372,9 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         height = select(fromShore < 0.0f, bed, outside);
         water = select(fromShore < 0.0f, max(Int(floor(r.lakeLevel)), Int(kSeaZ)), static_cast<Int>(water));
         wet = max(static_cast<Float>(wet), smoothstep(10.0f, 2.0f, fromShore));
+        fall = select(fromShore < 0.0f, Int(0), static_cast<Int>(fall));
     });
-    return {height, water, wet};
+    return {height, water, wet, fall};
 }
 
 }  // namespace
@@ -381,6 +389,7 @@ void reliefPass(Pass& p, const Fields& f) {
     p.set(f.height, static_cast<Float>(height));
     p.set(f.rocky, r.rocky);
     p.set(f.water, select(isInCrater, p.read(f.craterLake), static_cast<Int>(water)));
+    p.set(f.fall, w.fall);
     p.set(f.wet, select(isInCrater, Float(1.0f), w.wet));
     p.set(f.spring, static_cast<Float>(spring));
 }
