@@ -23,7 +23,7 @@ constexpr int kLandChunks = 4;
 constexpr int kLandBlocks = kLandChunks * world::kChunkSize;
 // Near the edge of an area, within this many blocks, the support of a tree may lie outside.
 constexpr int kEdge = 18;
-constexpr int kHighestFall = 10;  // blocks
+constexpr int kHighestFall = 28;  // blocks
 
 struct Land {
     const char *generator, *name;
