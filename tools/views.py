@@ -39,7 +39,7 @@ class Land:
         self.biome = world.biomes(area, step)
         names, biomes = world.block_names, world.biome_names
         self.sea_biomes = {"deep ocean", "ocean", "kelp forest", "reef"}
-        self.is_water = np.isin(self.block, [k for k, name in enumerate(names) if name in ("water", "ice")])
+        self.is_water = np.isin(self.block, [k for k, name in enumerate(names) if name in ("water", "white_water", "ice")])
         self.numbers = {name: k for k, name in enumerate(biomes)}
         self.block_numbers = {name: k for k, name in enumerate(names)}
         self.is_sea = self.is_water & self.is_biome(*self.sea_biomes)
