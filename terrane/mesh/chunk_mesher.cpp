@@ -15,27 +15,12 @@ bool hasSection(const world::Chunk& chunk, int number) {
     return number >= chunk.heights().firstSection() && number < chunk.heights().endSection();
 }
 
-// Solid sections below this one have no sides on open borders: kOpenSections below the lowest section that
-// has something open in or above it. Where one chunk has caves, so may the land beside it.
-int endOfOpenSides(const MeshInput& input) {
-    const world::Heights heights = input.center->heights();
-    if (std::ranges::find(input.neighbors, nullptr) == input.neighbors.end()) return heights.firstSection();
-    int number = heights.firstSection();
-    while (number < heights.endSection() && isAllOpaque(input.center->section(number), *input.blocks))
-        ++number;
-    return number - 1 - kOpenSections;
-}
-
-SectionView viewSection(const MeshInput& input, int number, int endOfOpenSides) {
+SectionView viewSection(const MeshInput& input, int number) {
     static const world::Section kNothing;
     SectionView view;
     view.center = &input.center->section(number);
-    const bool isDeep = number < endOfOpenSides && isAllOpaque(*view.center, *input.blocks);
     for (std::size_t side = 0; side < input.neighbors.size(); ++side) {
-        if (!input.neighbors[side]) {
-            if (isDeep) view.neighbors[side] = view.center;
-            continue;
-        }
+        if (!input.neighbors[side]) continue;
         const bool isInNeighbor = hasSection(*input.neighbors[side], number);
         view.neighbors[side] = isInNeighbor ? &input.neighbors[side]->section(number) : &kNothing;
         view.neighborStates[side] = isInNeighbor ? &input.neighbors[side]->blockStates(number) : &kNothing;
@@ -52,7 +37,7 @@ SectionView viewSection(const MeshInput& input, int number, int endOfOpenSides) 
 
 // Returns true for sections of one block without faces: most of a high column, so this takes no look at their
 // blocks. May be false for some of them.
-bool isPlain(const MeshInput& input, int number, int endOfOpenSides) {
+bool isPlain(const MeshInput& input, int number) {
     const world::Section& section = input.center->section(number);
     if (!section.isUniform()) return false;
     const world::BlockType& type = input.blocks->type(section.uniformValue());
@@ -62,8 +47,7 @@ bool isPlain(const MeshInput& input, int number, int endOfOpenSides) {
                (other.isUniform() && input.blocks->type(other.uniformValue()).opaqueCube);
     };
     const auto hidesSide = [&](const world::Chunk* neighbor) {
-        if (!neighbor) return number < endOfOpenSides;
-        return hasSection(*neighbor, number) && isOpaque(neighbor->section(number));
+        return neighbor && hasSection(*neighbor, number) && isOpaque(neighbor->section(number));
     };
     const world::Chunk& center = *input.center;
     const bool isLowest = !hasSection(center, number - 1), isHighest = !hasSection(center, number + 1);
@@ -79,15 +63,15 @@ void requireWhole(const MeshInput& input) {
 }
 
 // Returns nothing if the mesh section has no quads.
-std::optional<MeshSection> buildWithSides(const MeshInput& input, int bottom, int endOfOpenSides,
-                                          MeshScratch& scratch, std::vector<shared::Quad>& quads) {
+std::optional<MeshSection> build(const MeshInput& input, int bottom, MeshScratch& scratch,
+                                 std::vector<shared::Quad>& quads) {
     const world::Heights heights = input.center->heights();
     const int top = bottom + input.options.meshSectionHeight;
     const int step = std::min(top - bottom, world::kSectionSize);  // a section, or half of one
     bool mayHaveQuads = false;
     for (int z = std::max(bottom, heights.bottom); z < std::min(top, heights.top); z += step) {
-        if (isPlain(input, z >> 4, endOfOpenSides)) continue;
-        SectionView view = viewSection(input, z >> 4, endOfOpenSides);
+        if (isPlain(input, z >> 4)) continue;
+        SectionView view = viewSection(input, z >> 4);
         const auto layer = static_cast<std::size_t>(z & (world::kSectionSize - 1));
         view.target.layers = {layer, layer + static_cast<std::size_t>(step)};
         addSectionFaces(view, scratch.buckets);
@@ -119,16 +103,15 @@ std::optional<MeshSection> buildMeshSection(const MeshInput& input, int bottom, 
     const int height = input.options.meshSectionHeight;
     base::require((bottom & (height - 1)) == 0 && bottom < heights.top && bottom + height > heights.bottom,
                   "buildMeshSection: the chunk has no mesh section that begins with this layer");
-    return buildWithSides(input, bottom, endOfOpenSides(input), scratch, quads);
+    return build(input, bottom, scratch, quads);
 }
 
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
     requireWhole(input);
-    const int openEnd = endOfOpenSides(input);
     ChunkMesh mesh;
     scratch.quads.clear();
     forEachMeshSection(input, [&](int bottom, int) {
-        if (const auto made = buildWithSides(input, bottom, openEnd, scratch, scratch.quads))
+        if (const auto made = build(input, bottom, scratch, scratch.quads))
             mesh.meshSections.push_back(*made);
     });
     mesh.quads.assign(scratch.quads.begin(), scratch.quads.end());  // no larger than needed

@@ -21,9 +21,8 @@ namespace terrane::mesh {
 struct MeshInput {
     const world::Chunk* center = nullptr;
     // -x, +x, -y, +y; air beyond their heights. Null: unknown, the border is open. Faces of opaque cubes on
-    // an open border are drawn, so that no gap shows beside land of another height, but not those of solid
-    // sections more than kOpenSections below the lowest opening; faces that a block of the same type would
-    // hide (water) are not.
+    // an open border are drawn down to the bottom, so that no gap shows beside lower land and caves; faces
+    // that a block of the same type would hide (water) are not.
     std::array<const world::Chunk*, 4> neighbors{};
     const world::BlockRegistry* blocks = nullptr;
     MeshOptions options;
@@ -32,9 +31,6 @@ struct MeshInput {
 // The chunks that a mesh depends on: its own, then those at -x, +x, -y, +y. Null beyond the world's edge,
 // which counts as air.
 using MeshBlocks = std::array<world::ChunkPtr, 5>;
-
-// Land or a cave beside an open border may be 256 blocks lower. In a world of 0…255 that is its bottom.
-constexpr int kOpenSections = 16;
 
 // Returns the input of the mesh of the first chunk; it points into `chunks`.
 MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks, const MeshOptions& options);

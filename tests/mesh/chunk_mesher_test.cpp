@@ -352,33 +352,15 @@ TEST(ChunkMesher, QuadsCountFromTheirSlab) {
     }
 }
 
-// A tile of a tall world: 16 solid sections under the surface have sides, those below have none.
-TEST(ChunkMesher, OpenSidesEndDeepInTheGround) {
+// Caves of the chunks beside may be as deep as the world.
+TEST(ChunkMesher, OpenSidesReachTheBottom) {
     const world::Heights tall{world::kLowestBottom, 512};
     const Area area([](int, int, int z) { return z < 80 ? idOf("stone") : world::kAir; }, tall);
     MeshScratch scratch;
     const ChunkMesh mesh = meshTile(area.center, testBlocks(), {}, scratch);
     ASSERT_FALSE(mesh.meshSections.empty());
-    EXPECT_EQ(mesh.meshSections.front().minZ, 64 - 16 * kOpenSections);
-    EXPECT_EQ(mesh.quads.size(), 1u + 4 * (kOpenSections + 1));
-    MeshInput input = area.input();
-    input.neighbors = {};
-    expectExact(input, mesh);
-}
-
-// A cave in the tile beside may be as deep as one in this tile.
-TEST(ChunkMesher, OpenSidesReachBelowCaves) {
-    const world::Heights tall{world::kLowestBottom, 1536};
-    const Area area(
-        [](int x, int y, int z) {
-            const bool isCave = x == 8 && y == 8 && z == -500;
-            return z < 1200 && !isCave ? idOf("stone") : world::kAir;
-        },
-        tall);
-    MeshScratch scratch;
-    const ChunkMesh mesh = meshTile(area.center, testBlocks(), {}, scratch);
-    ASSERT_FALSE(mesh.meshSections.empty());
-    EXPECT_LE(mesh.meshSections.front().minZ, -500 - 16 * kOpenSections);
+    EXPECT_EQ(mesh.meshSections.front().minZ, tall.bottom);
+    EXPECT_EQ(mesh.quads.size(), 1u + 4 * static_cast<std::size_t>((80 - tall.bottom) / world::kSectionSize));
     MeshInput input = area.input();
     input.neighbors = {};
     expectExact(input, mesh);

@@ -63,23 +63,12 @@ class ReferenceFaces {
         return input_.center;
     }
 
-    // Whether the layer is more than kOpenSections below the highest of the solid sections at the bottom.
-    bool isDeep(int z) const {
-        int highest = heights_.firstSection() - 1;
-        while (highest + 1 < heights_.endSection() &&
-               isAllOpaque(input_.center->section(highest + 1), *input_.blocks))
-            ++highest;
-        return (z >> 4) < highest - kOpenSections;
-    }
-
-    // Beyond an open border an opaque cube meets air, but in deep solid ground, and everything else its own
-    // kind.
+    // Beyond an open border an opaque cube meets air, and everything else its own kind.
     CellBlock blockAt(int x, int y, int z, world::BlockId self) const {
         const world::Chunk* chunk = chunkAt(x, y);
         if (z < heights_.bottom) return {world::kUnmade};
         if (z >= heights_.top) return {};
-        if (!chunk)
-            return {input_.blocks->type(self).opaqueCube && !isDeep(z) ? world::kAir : self, 0, false};
+        if (!chunk) return {input_.blocks->type(self).opaqueCube ? world::kAir : self, 0, false};
         const world::BlockIndex at = world::blockIndex(x & 15, y & 15, z);
         return {chunk->block(at), chunk->blockState(at)};
     }

@@ -95,26 +95,29 @@ TEST_F(TallHolesTest, WhatIsMissingIsAHole) {
     EXPECT_EQ(levels, (std::set<int>{0, 1, 3}));
 }
 
-// Steps of mesh::kOpenSections at borders of chunks, of tiles and between.
+// Steps as high as the world at borders of chunks, of tiles and between.
 TEST_F(TallHolesTest, CliffsAreWholeFromFarAway) {
     constexpr world::Heights kHigh{-64, 1536};
+    static constexpr int kHighLand = 1310, kLowLand = 60;
     const auto cliffs = [](int level) {
         gen::GeneratorBuilder g("cliffs", contentBlocks(), level);
         g.declareHeights({-64, 1536});
         g.pass3D("ground", [](gen::Pass& p) {
             const gen::Bool isHigh = (((p.x() >> 8) + (p.y() >> 8)) & 1) == 0;
-            p.setBlock(select(p.z() < select(isHigh, gen::Int(310), gen::Int(60)), p.block("stone"),
-                              p.block("air")));
+            p.setBlock(select(p.z() < select(isHigh, gen::Int(kHighLand), gen::Int(kLowLand)),
+                              p.block("stone"), p.block("air")));
         });
         return g.finish();
     };
     const auto player = makeSession(cliffs, kHigh, 128);
     bench::ShownBlocks blocks(*player->session);
     for (int k = 0; k < atDepth(6, 60); ++k) {
-        const double z = k % 3 == 0 ? 312.5 : k % 3 == 1 ? 62.5 : 900.5;
-        const render::Camera camera{{k % 3 == 1 ? 300.5 : 8.5, 8.5 + 16 * k, z},
-                                    static_cast<float>(40 * k % 360),
-                                    k % 3 == 1 ? 20.0f : -35.0f};
+        const bool isHigh = k % 3 == 0;
+        const int y = 8 + 16 * k;
+        const double x = (((y >> 8) & 1) == 0) == isHigh ? 8.5 : 300.5;
+        const double z = isHigh ? kHighLand + 2.5 : k % 3 == 1 ? kLowLand + 2.5 : 900.5;
+        const render::Camera camera{
+            {x, y + 0.5, z}, static_cast<float>(40 * k % 360), k % 3 == 1 ? 20.0f : -35.0f};
         load(*player, camera);
         const bench::HoleCount found = bench::findHoles(player->renderer, blocks, camera);
         EXPECT_EQ(found.holes, 0u) << describe(camera);

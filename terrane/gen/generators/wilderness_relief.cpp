@@ -256,7 +256,10 @@ Relief detailed(Pass& p, const Fields& f) {
         rocky = max(rocky, smoothstep(3.0f, 10.0f, tower));
     });
     const Float bumps = p.perlin2D("bumps", 8, {.25f, .5f, 1.0f, 1.4f});
-    return {height + bumps * (inland * 0.6f + 0.25f) * max(beside, Float(0.3f)), rocky};
+    const Float rough = height + bumps * (inland * 0.6f + 0.25f) * max(beside, Float(0.3f));
+    // The rarest peaks stay below the top of the world.
+    constexpr float kHigh = 1600.0f;
+    return {rough - max(rough - kHigh, Float(0.0f)) * 0.5f, rocky};
 }
 
 struct Water {

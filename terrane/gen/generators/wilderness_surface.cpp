@@ -58,7 +58,7 @@ Site site(Pass& p, const Fields& f) {
 Int biomeOf(Pass& p, const Fields& f, const Site& s) {
     const auto is = [](Biome b) { return number(b); };
     const Float t = s.temperature, m = s.moisture, land = p.read(f.land);
-    const Float patches = p.perlin2D("woods of one kind", 128, {.3f, .6f, 1.0f});
+    const Float patches = p.perlin2D("woods of one kind", 128, {.3f, .6f, 1.0f}) + s.rough;
     const Float shore = p.perlin2D("beach width", 64, {.4f, 1.0f}) * 0.008f + 0.009f;
     const Bool isSea = s.height < kSea + 0.5f && (land < 0.05f || p.read(f.range) > 0.2f);
     const Bool isShallow = s.height > kSea - 18.0f, isDeep = s.height < kSea - 60.0f;
