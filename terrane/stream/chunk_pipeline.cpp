@@ -89,6 +89,8 @@ mesh::MeshBlocks ChunkPipeline::meshBlocks(ChunkPos pos) const {
 ChunkNeighborhood ChunkPipeline::around(ChunkPos pos) const {
     ChunkNeighborhood around = neighborhoodOf(table_, parts_.world, pos);
     const SideSet open = openSides(tileView_, pos);
+    if (open == 0) return around;
+    around.meshed[0] = closeCaves(around.meshed[0], open, parts_.blocks);
     for (std::size_t side = 0; side < 4; ++side)
         if ((open >> side & 1) != 0) around.meshed[1 + side] = beyond_;
     return around;

@@ -54,6 +54,11 @@ SideSet openSides(const TileView& view, world::ChunkPos pos);
 // toward it and those of water are not. Air if there is no liquid.
 world::ChunkPtr borderChunk(const world::BlockRegistry& blocks, world::Heights heights);
 
+// Returns the chunk with its caves closed on these sides, or the same one if none reaches them: tiles have no
+// caves, so a cave that goes on in a tile's place would end at the sunlit side of the tile. The outermost
+// blocks become those of the cave's roof, from some blocks below the lowest ground of the side down.
+world::ChunkPtr closeCaves(const world::ChunkPtr& chunk, SideSet sides, const world::BlockRegistry& blocks);
+
 // Requests new meshes of chunks whose open sides changed.
 void remeshBorders(ChunkTable& table, const TileView& before, const TileView& now);
 
