@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules base shared world content_files content sound_files sound video store gen lua store_postgres light mesh rays stream map volume format_files formats game pack io net net_postgres)
+set(modules base shared world content_files content sound_files sound video store gen lua store_postgres light mesh rays path stream map volume format_files formats game pack io net net_postgres)
 set(TERRANE_OPTIONAL_PKG "")
 set(TERRANE_OPTIONAL_REQUIRES "")
 if(TERRANE_GRAPHICS)
