@@ -4,8 +4,11 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <span>
 #include <string>
+#include <type_traits>
 
+#include "terrane/base/digest.h"
 #include "terrane/base/files.h"
 
 namespace terrane::path {
@@ -70,6 +73,61 @@ Means meansOf(const Film& film) {
             static_cast<float>((variance.x + variance.y + variance.z) / std::max(samples - 1, 1.0)));
     }
     return means;
+}
+
+namespace {
+
+// Adds plain values without padding.
+class Key {
+  public:
+    template <class T>
+    void add(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        digest_.update(std::as_bytes(std::span(&value, 1)));
+    }
+    template <class T>
+    void addAll(std::span<const T> values) {
+        digest_.update(std::as_bytes(values));
+    }
+    std::uint64_t value() const { return base::hash64(digest_.hex()); }
+
+  private:
+    base::Digest digest_;
+};
+
+void addTile(Key& key, const SceneTile& tile) {
+    key.add(tile.pos.x);
+    key.add(tile.pos.y);
+    key.add(tile.pos.level);
+    const world::Chunk& chunk = *tile.chunk;
+    for (int s = chunk.heights().firstSection(); s < chunk.heights().endSection(); ++s) {
+        const world::Section& section = chunk.section(s);
+        if (section.isUniform()) key.add(section.uniformValue());
+        key.addAll(section.palette());
+        key.addAll(section.words());
+    }
+    if (tile.tint) key.addAll(std::span<const world::PackedColor>(*tile.tint));
+}
+
+}  // namespace
+
+std::uint64_t keyOf(const Scene& scene, const Camera& camera, const TraceOptions& options) {
+    Key key;
+    for (const SceneTile& tile : scene.parts.tiles) addTile(key, tile);
+    for (const Texture& texture : scene.parts.textures)
+        key.addAll(std::span<const std::uint8_t>(texture.rgba));
+    const Sky& sky = scene.parts.sky;
+    key.add(sky.table.radiance);
+    key.add(std::array{sky.lightShare, sky.toLight, sky.aureole, sky.discColor, sky.discRadiance});
+    key.add(scene.parts.air.frame);
+    key.add(std::array{sky.discCosine, scene.parts.air.fogDistance, scene.parts.air.cameraZ});
+    key.add(camera.position);
+    key.add(std::array{camera.ahead, camera.across, camera.up});
+    key.add(std::array{camera.lensRadius, camera.focus, camera.isInWater ? 1.0f : 0.0f});
+    key.add(options.size);
+    key.add(options.seed);
+    key.add(options.bounces);
+    return key.value();
 }
 
 base::Result<void> saveFilm(const std::filesystem::path& path, const Film& film, std::uint64_t key) {

@@ -47,6 +47,9 @@ struct Means {
 };
 Means meansOf(const Film& film);
 
+// What an image depends on, other than its samples: scene, camera and options.
+std::uint64_t keyOf(const Scene& scene, const Camera& camera, const TraceOptions& options);
+
 // A film in a file. `key` says what is drawn; a file with another key cannot be resumed.
 [[nodiscard]] base::Result<void> saveFilm(const std::filesystem::path& path, const Film& film,
                                           std::uint64_t key);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "terrane/base/image.h"
+#include "terrane/base/srgb.h"
 #include "terrane/mesh/shape_faces.h"
 
 namespace terrane::path {
@@ -15,14 +16,11 @@ namespace {
 
 using world::AlphaMode, world::BlockType, world::Material;
 
-// sRGB to linear (IEC 61966-2-1).
-float decoded(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
 const std::array<float, 256>& decodedBytes() {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> values{};
-        for (std::size_t k = 0; k < values.size(); ++k) values[k] = decoded(static_cast<float>(k) / 255);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            values[k] = base::decodeSrgb(static_cast<float>(k) / 255);
         return values;
     }();
     return table;
@@ -218,7 +216,7 @@ Texel texelOf(const Scene& scene, const rays::Surface& surface) {
         const float share = material.alpha == AlphaMode::Tint ? texel.alpha : 1;
         const world::PackedColor tint = (*tile->tint)[static_cast<std::size_t>(surface.block & 255)];
         const glm::vec3 color = tinted(glm::vec3(stored[0], stored[1], stored[2]) / 255.0f, tint, share);
-        texel.color = {decoded(color.x), decoded(color.y), decoded(color.z)};
+        texel.color = {base::decodeSrgb(color.x), base::decodeSrgb(color.y), base::decodeSrgb(color.z)};
     } else {
         const auto& table = decodedBytes();
         texel.color = {table[stored[0]], table[stored[1]], table[stored[2]]};

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "terrane/mesh/shape_faces.h"
-#include "terrane/world/pose.h"
 
 namespace terrane::path {
 namespace {
@@ -147,19 +146,6 @@ glm::vec3 waveNormal(const glm::dvec3& at) {
 Tracer::Tracer(const Scene& scene, const Camera& camera, const TraceOptions& options)
     : scene_(scene), camera_(camera), options_(options) {}
 
-bool Tracer::isWaterAt(const glm::dvec3& point) const {
-    const world::ChunkPos pos = world::chunkOf(point);
-    const SceneTile* tile = scene_.tileAt(pos);
-    const int z = static_cast<int>(std::floor(point.z));
-    if (tile == nullptr || !tile->chunk->heights().contains(z)) return false;
-    const int x = static_cast<int>(std::floor(point.x)) & 15, y = static_cast<int>(std::floor(point.y)) & 15;
-    const world::BlockType& type = scene_.parts.blocks->type(tile->chunk->block(world::blockIndex(x, y, z)));
-    if (type.shape != Shape::Liquid) return false;
-    const bool isUnder =
-        z + 1 >= tile->chunk->heights().top || tile->chunk->block(world::blockIndex(x, y, z + 1)) != type.id;
-    return !isUnder || point.z - z < shared::kLiquidSurfaceSixteenths / 16.0;
-}
-
 Start Tracer::cameraRay(glm::ivec2 pixel, Random& random, glm::vec3& direction) const {
     const glm::vec2 at = (glm::vec2(pixel) + random.next2()) / glm::vec2(options_.size);
     direction = camera_.ahead + (2 * at.x - 1) * camera_.across + (1 - 2 * at.y) * camera_.up;
@@ -168,7 +154,7 @@ Start Tracer::cameraRay(glm::ivec2 pixel, Random& random, glm::vec3& direction) 
     const glm::dvec3 from = camera_.position + glm::dvec3(moved);
     direction = glm::normalize(direction * camera_.focus - moved);
     Start start = startAt(from);
-    start.isInWater = isWaterAt(from);
+    start.isInWater = camera_.isInWater;
     return start;
 }
 
@@ -254,7 +240,6 @@ Tracer::Way Tracer::follow(const Start& start, glm::vec3 direction, Random& rand
     return way;
 }
 
-// Share of light that comes along a straight line: from far away, or from the face `target`.
 glm::vec3 Tracer::transmitted(const Start& start, glm::vec3 direction, float end, const Emitter* target) {
     glm::vec3 left(1);
     bool isInWater = start.isInWater, isReached = target == nullptr;
@@ -387,7 +372,8 @@ PathSample Tracer::trace(glm::ivec2 pixel, std::uint32_t sample) {
     bool isSeen = true, wasMirrored = false;  // the camera sees it, directly or in mirrors
     float before = 0;                         // distance along the camera's rays
     Vertex from;                              // where the ray was scattered
-    float perScatter = 0;
+    float perScatter = 0;                     // density of its direction
+    bool hadSkyRay = false;                   // from there
     for (int bounce = 0; bounce <= options_.bounces;) {
         Way way = follow(start, direction, random);
         if (isSeen && !start.isInWater) passAir(way, direction, !wasMirrored, through, result.radiance);
@@ -450,17 +436,18 @@ PathSample Tracer::trace(glm::ivec2 pixel, std::uint32_t sample) {
     return result;
 }
 
-float Tracer::openSky(const glm::dvec3& point) {
+float openSky(const Scene& scene, const glm::dvec3& point) {
     constexpr std::uint32_t kRays = 256;
-    Vertex ground;
-    ground.normal = {0, 0, 1};
+    const Camera camera;
+    const TraceOptions options;
+    Tracer tracer(scene, camera, options);
     float sum = 0;
     for (std::uint32_t k = 0; k < kRays; ++k) {
         Random random{0, k, 0};
         const glm::vec2 at = random.next2();
         const glm::vec3 disc = onDisc(at);
         const glm::vec3 direction(disc.x, disc.y, std::sqrt(1 - at.x));
-        sum += largest(transmitted(startAt(point), direction, kFarthest, nullptr));
+        sum += largest(tracer.transmitted(startAt(point), direction, kFarthest, nullptr));
     }
     return sum / kRays;
 }

@@ -19,6 +19,7 @@ struct Camera {
     glm::vec3 ahead{1, 0, 0}, across{0, -1, 0}, up{0, 0, 1};  // ahead: length 1
     float lensRadius = 0;                                     // 0: all is sharp
     float focus = 16;                                         // distance along `ahead` that is sharp
+    bool isInWater = false;
 };
 
 struct TraceOptions {
@@ -54,8 +55,8 @@ class Tracer {
     // `pixel`: from the upper left corner.
     PathSample trace(glm::ivec2 pixel, std::uint32_t sample);
 
-    // Share of the sky, by the cosine, that level ground at a point would see.
-    float openSky(const glm::dvec3& point);
+    // Share of light that comes along a straight line: from far away, or from the face `target`.
+    glm::vec3 transmitted(const Start& start, glm::vec3 direction, float end, const Emitter* target);
 
   private:
     // Where light is scattered.
@@ -85,7 +86,6 @@ class Tracer {
 
     Start cameraRay(glm::ivec2 pixel, Random& random, glm::vec3& direction) const;
     Way follow(const Start& start, glm::vec3 direction, Random& random);
-    glm::vec3 transmitted(const Start& start, glm::vec3 direction, float end, const Emitter* target);
     glm::vec3 lightFromDisc(const Vertex& vertex, Random& random);
     glm::vec3 lightFromSky(const Vertex& vertex, Random& random);
     glm::vec3 lightFromEmitters(const Vertex& vertex, Random& random);
@@ -93,12 +93,14 @@ class Tracer {
     glm::vec3 scatter(const Vertex& vertex, Random& random) const;
     void passAir(const Way& way, glm::vec3 direction, bool isFirst, glm::vec3& through,
                  glm::vec3& light) const;
-    bool isWaterAt(const glm::dvec3& point) const;
 
     const Scene& scene_;
     const Camera& camera_;
     const TraceOptions& options_;
     rays::SurfaceWalk walk_;
 };
+
+// Share of the sky, by the cosine, that level ground at a point would see.
+float openSky(const Scene& scene, const glm::dvec3& point);
 
 }  // namespace terrane::path
