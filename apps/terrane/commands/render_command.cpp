@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
@@ -37,7 +38,6 @@ double millisecondsSince(Clock::time_point start) {
 enum class RendererKind : std::uint8_t { Quads, Path };
 
 struct PathOptions {
-    int samples = 64;  // of each pixel
     int bounces = path::TraceOptions().bounces;
     view::Lens lens;
     bool denoises = false;
@@ -46,6 +46,7 @@ struct PathOptions {
 
 struct RenderCommandOptions {
     RendererKind renderer = RendererKind::Quads;
+    std::optional<int> samples;  // of each pixel
     PathOptions path;
     io::WorldOptions world;
     io::SaveOptions save;
@@ -153,9 +154,7 @@ struct RendererFormat {
 const std::vector<RendererFormat>& rendererFormats() {
     static const std::vector<RendererFormat> formats{
         {RendererKind::Quads, "--renderer quads", {"--seconds", "--frames", "--view"}},
-        {RendererKind::Path,
-         "--renderer path",
-         {"--samples", "--bounces", "--lens", "--focus", "--denoise", "--resume"}}};
+        {RendererKind::Path, "--renderer path", {"--bounces", "--lens", "--focus", "--denoise", "--resume"}}};
     return formats;
 }
 
@@ -180,14 +179,16 @@ base::Result<void> checkRenderer(const CLI::App& command, const RenderCommandOpt
 }
 
 // Traces the samples that the film lacks, a few at a time. Stopped, it keeps those it has.
-base::Result<void> traceSamples(path::Film& film, const PathOptions& options, base::JobSystem& jobs,
+base::Result<void> traceSamples(path::Film& film, const RenderCommandOptions& options, base::JobSystem& jobs,
                                 const std::function<path::Tracer()>& makeTracer, std::uint64_t key) {
+    constexpr int kDefaultSamples = 64;
     constexpr std::uint32_t kAtOnce = 4;
     constexpr auto kSaveAfter = std::chrono::seconds(30);
-    const auto wanted = static_cast<std::uint32_t>(options.samples);
+    const auto wanted = static_cast<std::uint32_t>(options.samples.value_or(kDefaultSamples));
+    const std::string& file = options.path.samplesFile;
     const auto save = [&]() -> base::Result<void> {
-        if (options.samplesFile.empty()) return {};
-        return path::saveFilm(options.samplesFile, film, key);
+        if (file.empty()) return {};
+        return path::saveFilm(file, film, key);
     };
     const io::Progress progress = progressBar("samples");
     auto saved = Clock::now();
@@ -201,7 +202,6 @@ base::Result<void> traceSamples(path::Film& film, const PathOptions& options, ba
     }
     TERRANE_TRY(save());
     if (film.samples >= wanted) return {};
-    const std::string& file = options.samplesFile;
     return base::fail("stopped after {} of {} samples{}", film.samples, wanted,
                       file.empty() ? "" : fmt::format(", which are in {}", file));
 }
@@ -230,7 +230,7 @@ base::Result<void> traceImage(const RenderCommandOptions& options, view::Offscre
     const std::uint32_t before = film.samples;
     const auto drawStart = Clock::now();
     TERRANE_TRY(traceSamples(
-        film, options.path, world.session->jobs(), [&] { return path::Tracer(*scene, camera, trace); }, key));
+        film, options, world.session->jobs(), [&] { return path::Tracer(*scene, camera, trace); }, key));
     timings.draw = millisecondsSince(drawStart);
     TERRANE_TRY(writeTraced(options, film, world.session->jobs()));
     base::logInfo(
@@ -254,14 +254,30 @@ base::Result<void> traceImage(const RenderCommandOptions& options, view::Offscre
     return {};
 }
 
+// The rasterizer has a few numbers of samples.
+base::Result<render::GraphicsChoices> graphicsChoices(const RenderCommandOptions& options) {
+    render::GraphicsChoices choices = options.graphics.choices;
+    if (options.renderer != RendererKind::Quads || !options.samples) return choices;
+    const auto table = render::graphicsTable();
+    const auto row = std::ranges::find(table, "samples", &render::GraphicsRow::name);
+    const auto choice = render::choiceOf(*row, std::to_string(*options.samples));
+    if (!choice)
+        return base::fail(base::ErrorCode::BadInput, "--samples: {} is not one of {} of --renderer quads",
+                          *options.samples, render::valueNamesOf(*row));
+    choices.changed.emplace_back(row - table.begin(), *choice);
+    return choices;
+}
+
 base::Result<void> renderImage(const CLI::App& command, const RenderCommandOptions& options) {
     const auto start = Clock::now();
     TERRANE_TRY(checkRenderer(command, options));
+    GraphicsOptions graphics = options.graphics;
+    graphics.choices = TERRANE_TRY(graphicsChoices(options));
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
     const auto place = TERRANE_TRY(placeOf(options.place, {"", {}, content::scenes().front().timeDay}));
     auto world = openOffscreen({.world = worldOf(options.place, options.world),
                                 .save = options.save,
-                                .graphics = options.graphics,
+                                .graphics = graphics,
                                 .backend = options.backend});
     if (!world) return tl::unexpected(world.error());
     game::Session& session = *(*world)->session;
@@ -300,15 +316,19 @@ base::Result<void> renderImage(const CLI::App& command, const RenderCommandOptio
     return {};
 }
 
-void addPathOptions(CLI::App& command, RenderCommandOptions& options) {
+void addRendererOptions(CLI::App& command, RenderCommandOptions& options) {
     addChoice(
         command, "--renderer", options.renderer,
         {{"quads", RendererKind::Quads}, {"path", RendererKind::Path}},
         "What draws: the rasterizer, or a path tracer, which is slow and follows light over many bounces");
     PathOptions& path = options.path;
-    command.add_option("--samples", path.samples, "Paths of each pixel (path tracer)")
-        ->check(numberFrom(1, 1 << 24))
-        ->capture_default_str();
+    command.remove_option(command.get_option("--samples"));
+    command
+        .add_option(
+            "--samples", options.samples,
+            "Samples of each pixel. Rasterizer: 1, 2, 4 or 8, by default the preset's. Path tracer: paths, "
+            "any number, by default 64")
+        ->check(numberFrom(1, 1 << 24));
     command
         .add_option("--bounces", path.bounces,
                     "Most times that light is scattered or mirrored on its way (path tracer)")
@@ -345,12 +365,12 @@ CommandEntry addRender(CLI::App& app) {
         ->check(numberFrom(0, 100000));
     addOutputOption(*command, options->output, {".png", ".exr"},
                     "The PNG file; with --renderer path also an OpenEXR file with albedo, normal and depth");
-    addPathOptions(*command, *options);
     command->add_flag("--json", options->json, "Print timings and counts as JSON");
     addWorldOptions(*command, options->world);
     nameSceneGenerator(*command);
     addBackendOption(*command, options->backend, "Device that generates, lights and meshes");
     addGraphicsOptions(*command, options->graphics, "high");
+    addRendererOptions(*command, *options);
     addWorldOption(*command, options->save,
                    "World to draw, which stays unchanged; missing chunks are generated");
     return {command, [command, options] { return renderImage(*command, *options); }};
