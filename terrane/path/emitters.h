@@ -1,4 +1,5 @@
-// The faces of blocks that emit light, for light rays: in a grid of cells of 16³ blocks, and all in one list.
+// The faces of blocks that emit light, for light rays: in a grid of cells of 16³ blocks, which have groups of
+// 4³ blocks, and all in one list.
 // A light ray goes to a face near the surface or, less often, to any face of the scene, so that each has a
 // chance. Immutable once made; any thread may use it.
 #pragma once
@@ -50,27 +51,37 @@ class EmitterTable {
     const Emitter* find(world::ChunkPos tile, world::BlockIndex block, unsigned shapeFace) const;
 
   private:
-    static constexpr int kCellBits = 4;
+    static constexpr int kCellBits = 4, kGroupBits = 2;
     static constexpr float kShareOfAll = 0.2f;  // of the light rays near emitters
     static constexpr float kChanceFar = 0.1f;   // of a light ray where none is near
 
-    struct Cell {
-        std::uint32_t first = 0, count = 0;  // its faces
+    // Faces or groups that follow each other.
+    struct Span {
+        std::uint32_t first = 0, count = 0;
         float power = 0;
         glm::dvec3 middle{0};
+        float least2 = 1;  // square of the distance: nearer ones count as if they were that far away
+
+        float weight(const glm::dvec3& point) const;
+    };
+    struct Cell {
+        Span groups;
         std::array<std::uint32_t, 27> near{};  // cells with faces: itself and those around it
         int nearCount = 0;
     };
     struct KeyHash {
         std::size_t operator()(const glm::ivec3& key) const;
     };
-    static glm::ivec3 keyOf(const glm::dvec3& point);
+    static glm::ivec3 cellKeyOf(const glm::dvec3& point);
     const Cell* cellAt(const glm::dvec3& point) const;
-    static float weightOf(const Cell& cell, const glm::dvec3& point);
     float nearWeight(const Cell& around, const glm::dvec3& point) const;
+    float groupWeight(const Span& groups, const glm::dvec3& point) const;
+    const Emitter* pick(std::uint32_t first, std::uint32_t count, float random) const;
 
-    std::vector<Emitter> emitters_;   // by cell
-    std::vector<double> cumulative_;  // of their power
+    std::vector<Emitter> emitters_;       // by cell, then by group
+    std::vector<std::uint32_t> groupOf_;  // by face
+    std::vector<double> cumulative_;      // of their power
+    std::vector<Span> groups_;
     std::vector<Cell> cells_;
     std::unordered_map<glm::ivec3, std::uint32_t, KeyHash> byPlace_;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> byBlock_;

@@ -194,6 +194,24 @@ void addCubeSurfaces(const SurfaceScene& scene, const Ray& ray, const RayHit& hi
         walk.surfaces.push_back(cubeSurface(cell, *face, exit.t, false));
 }
 
+// Whether a ray passes a cell of liquid between cells of the same, still liquid: it meets nothing there.
+bool isInsideLiquid(const SurfaceScene& scene, const Ray& ray, const RayHit& hit, const Cell& cell,
+                    const SurfaceWalk& walk) {
+    const mesh::CellBlock self = blockAt(*cell.chunk, cell.x, cell.y, cell.z);
+    const auto isSame = [&](const mesh::CellBlock& other) {
+        return other.id == self.id && other.state == self.state;
+    };
+    if (self.state != 0 || hit.face >= shared::kRayFaceNone ||
+        !isSame(blockAt(*cell.chunk, cell.x, cell.y, cell.z + 1)))
+        return false;
+    const auto isSameBeside = [&](unsigned side) {
+        glm::ivec3 at(cell.x, cell.y, cell.z);
+        at[static_cast<int>(side / 2)] += side % 2 == 0 ? -1 : 1;
+        return isSame(blockBeside(scene, cell, at, self.id));
+    };
+    return isSameBeside(hit.face) && isSameBeside(exitOf(ray, walk.place, hit.level).side);
+}
+
 void addShapeSurfaces(const SurfaceScene& scene, const Ray& ray, const Cell& cell, SurfaceWalk& walk) {
     const world::BlockRegistry& blocks = blocksOf(scene, cell.tile.level);
     walk.faces.clear();
@@ -249,7 +267,7 @@ bool nextSurfaces(const SurfaceScene& scene, const Ray& ray, SurfaceWalk& walk) 
         }
         if (type.shape == world::Shape::Cube)
             addCubeSurfaces(scene, ray, hit, cell, walk);
-        else
+        else if (type.shape != world::Shape::Liquid || !isInsideLiquid(scene, ray, hit, cell, walk))
             addShapeSurfaces(scene, ray, cell, walk);
         shared::rayLeaveBox(ray, walk.place, shared::rayBoxEnd(walk.place.cell, hit.level, 0));
     }
