@@ -4,7 +4,7 @@
 //     terrane render --world VILLAGE.sqlite --at X,Y,Z --look YAW,PITCH --time 0.82 -o village.png
 //
 // With `hall` it builds a hall of glass with its middle there, and a cave with lamps below, for images of the
-// path tracer (tools/path_images.sh).
+// path tracer (tools/path_images.py).
 #include <chrono>
 #include <cmath>
 #include <cstdio>
