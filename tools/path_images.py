@@ -20,8 +20,8 @@ VIEWS = {
     "glade": [*OVERWORLD, "--at=-87.5,-87.5,88.6", "--look=180,-3", "--time=0.36"],
     "forest": ["--generator", "wilderness", "--at=40,20,150", "--look=30,-8", "--time=0.4"],
     "cave": ["--world", HALL, "--at=3425,-1652,66", "--look=10,-12", "--time=0", "--horizon=0"],
-    "village": ["--world", HAMLET, "--at=3395,-1712,92", "--look=30,-14", "--time=0.9", "--horizon=64"],
-    "hall": ["--world", HALL, "--at=3428.5,-1650,86", "--look=0,-6", "--time=0.42", "--horizon=64"],
+    "village": ["--world", HAMLET, "--at=3395,-1712,92", "--look=30,-14", "--time=0.9", "--horizon=128"],
+    "hall": ["--world", HALL, "--at=3428.5,-1650,86", "--look=0,-6", "--time=0.42", "--horizon=128"],
     "water": [*OVERWORLD, "--at=-180,60,104", "--look=152,-20", "--time=0.42", "--horizon=256"],
     "dawn": ["--at=3650,-2100,200", "--look=62,-9", "--time=0.225"],
 }

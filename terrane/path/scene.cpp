@@ -6,6 +6,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <map>
 
 #include "terrane/base/image.h"
 #include "terrane/base/srgb.h"
@@ -52,12 +55,32 @@ float emittingShare(AlphaMode mode, float alpha) {
     return mode == AlphaMode::Glow || mode == AlphaMode::TestGlow ? glowOf(mode, alpha) : 1;
 }
 
-float meanEmittingShare(const Material& material, const std::vector<Texture>& textures) {
+// What a face emits: its mean share over the part of the texture that it shows, and the box of texels that
+// emit, 0 to 1.
+struct EmittingTexels {
+    float meanShare = 0;
+    glm::vec2 low{1}, high{0};
+};
+EmittingTexels emittingTexelsOf(const shared::ShapeFace& face, const Material& material,
+                                const std::vector<Texture>& textures) {
     const Texture& texture = textures[material.texture];
-    float sum = 0;
-    for (std::size_t k = 3; k < texture.rgba.size(); k += 4)
-        sum += emittingShare(material.alpha, static_cast<float>(texture.rgba[k]) / 255);
-    return sum / static_cast<float>(texture.rgba.size() / 4);
+    const auto side = static_cast<float>(texture.side);
+    const glm::vec2 a = shared::shapeFaceTexel(face, {0, 0}), b = shared::shapeFaceTexel(face, {1, 1});
+    const glm::ivec2 low(glm::floor(glm::min(a, b) * side)), end(glm::ceil(glm::max(a, b) * side));
+    EmittingTexels found;
+    for (int y = low.y; y < end.y; ++y) {
+        for (int x = low.x; x < end.x; ++x) {
+            const std::size_t k = 4 * static_cast<std::size_t>(y * texture.side + x) + 3;
+            const float share = emittingShare(material.alpha, static_cast<float>(texture.rgba[k]) / 255);
+            if (share == 0) continue;
+            found.meanShare += share;
+            found.low = glm::min(found.low, glm::vec2(x, y) / side);
+            found.high = glm::max(found.high, glm::vec2(x + 1, y + 1) / side);
+        }
+    }
+    const glm::ivec2 shown = end - low;
+    if (shown.x > 0 && shown.y > 0) found.meanShare /= static_cast<float>(shown.x * shown.y);
+    return found;
 }
 
 struct FaceGeometry {
@@ -70,6 +93,20 @@ FaceGeometry geometryOf(const shared::ShapeFace& face) {
     };
     const glm::vec3 corner = at(0, 0);
     return {corner, at(1, 0) - corner, at(0, 1) - corner};
+}
+
+// The part of a face that shows a box of its texture, along its axes. Texture coordinates of faces without a
+// bend change along one axis each.
+struct FacePart {
+    glm::vec2 low, high;
+};
+FacePart partOf(const shared::ShapeFace& face, const EmittingTexels& texels) {
+    const glm::vec2 origin = shared::shapeFaceTexel(face, {0, 0});
+    const glm::mat2 axes(shared::shapeFaceTexel(face, {1, 0}) - origin,
+                         shared::shapeFaceTexel(face, {0, 1}) - origin);
+    const glm::mat2 toFace = glm::inverse(axes);
+    const glm::vec2 a = toFace * (texels.low - origin), b = toFace * (texels.high - origin);
+    return {glm::clamp(glm::min(a, b), 0.0f, 1.0f), glm::clamp(glm::max(a, b), 0.0f, 1.0f)};
 }
 
 int sideBitsFor(const SceneParts& parts) {
@@ -139,7 +176,9 @@ void Scene::setEmission() {
             float area = 0;
             for (const mesh::CellFace& face : faces)
                 area += geometryOf(surfaces.shapeFaces[face.shapeFace]).area() *
-                        meanEmittingShare(parts.blocks->materials()[face.material], parts.textures) *
+                        emittingTexelsOf(surfaces.shapeFaces[face.shapeFace],
+                                         parts.blocks->materials()[face.material], parts.textures)
+                            .meanShare *
                         (face.isTwoSided ? 2.0f : 1.0f);
             radiance *= area > 0 ? 6 / area : 0;
         }
@@ -153,7 +192,7 @@ std::vector<Emitter> Scene::findEmitters() const {
     const auto emits = [&](world::BlockId id) {
         return id < emission.size() && emission[id] != glm::vec3(0);
     };
-    std::vector<float> shares(parts.blocks->materials().size(), -1);
+    std::map<std::pair<std::uint16_t, std::uint16_t>, EmittingTexels> known;  // by face and material
     for (const SceneTile& tile : parts.tiles) {
         if (tile.pos.level > 0) continue;  // too small to be seen, and their light too weak
         const world::Chunk& chunk = *tile.chunk;
@@ -167,17 +206,30 @@ std::vector<Emitter> Scene::findEmitters() const {
                 faces.clear();
                 rays::addFacesOf(surfaces, tile.pos, in, faces);
                 for (const mesh::CellFace& face : faces) {
-                    float& share = shares[face.material];
-                    if (share < 0)
-                        share = meanEmittingShare(parts.blocks->materials()[face.material], parts.textures);
-                    const FaceGeometry g = geometryOf(surfaces.shapeFaces[face.shapeFace]);
-                    const float power =
-                        luminance(emission[id]) * g.area() * share * (face.isTwoSided ? 2.f : 1.f);
-                    if (power == 0) continue;
+                    const shared::ShapeFace& shape = surfaces.shapeFaces[face.shapeFace];
+                    const auto [texels, isNew] = known.try_emplace({face.shapeFace, face.material});
+                    if (isNew)
+                        texels->second =
+                            emittingTexelsOf(shape, parts.blocks->materials()[face.material], parts.textures);
+                    if (texels->second.meanShare == 0) continue;
+                    const FaceGeometry g = geometryOf(shape);
+                    const FacePart part = partOf(shape, texels->second);
+                    const glm::vec2 size = part.high - part.low;
+                    if (size.x <= 0 || size.y <= 0) continue;
                     const glm::dvec3 cell(tile.pos.x * 16.0 + in.x, tile.pos.y * 16.0 + in.y, in.z);
-                    found.push_back({tile.pos, at, face.shapeFace, face.material, face.isTwoSided,
-                                     cell + glm::dvec3(g.corner), g.alongU, g.alongV,
-                                     mesh::normalOf(surfaces.shapeFaces[face.shapeFace]), g.area(), power});
+                    const glm::vec3 corner = g.corner + g.alongU * part.low.x + g.alongV * part.low.y;
+                    found.push_back({.tile = tile.pos,
+                                     .block = at,
+                                     .shapeFace = face.shapeFace,
+                                     .material = face.material,
+                                     .isTwoSided = face.isTwoSided,
+                                     .corner = cell + glm::dvec3(corner),
+                                     .alongU = g.alongU * size.x,
+                                     .alongV = g.alongV * size.y,
+                                     .normal = mesh::normalOf(shape),
+                                     .area = g.area() * size.x * size.y,
+                                     .power = luminance(emission[id]) * g.area() * texels->second.meanShare *
+                                              (face.isTwoSided ? 2.0f : 1.0f)});
                 }
             }
         }
