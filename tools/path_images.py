@@ -18,8 +18,8 @@ WORLDS = {HAMLET: ["3466,-1690"], HALL: ["3440,-1650", "hall"]}
 OVERWORLD = ["--generator", "overworld"]
 VIEWS = {
     "glade": [*OVERWORLD, "--at=-87.5,-87.5,88.6", "--look=180,-3", "--time=0.36"],
-    "forest": ["--generator", "wilderness", "--at=40,20,150", "--look=30,-8", "--time=0.4"],
-    "cave": ["--world", HALL, "--at=3425,-1652,66", "--look=10,-12", "--time=0", "--horizon=0"],
+    "forest": ["--generator", "wilderness", "--at=-800,3560,85", "--look=150,-12", "--time=0.4"],
+    "cave": ["--world", HALL, "--at=3424,-1650,63.5", "--look=0,-18", "--time=0", "--horizon=0"],
     "village": ["--world", HAMLET, "--at=3395,-1712,92", "--look=30,-14", "--time=0.9", "--horizon=128"],
     "hall": ["--world", HALL, "--at=3428.5,-1650,86", "--look=0,-6", "--time=0.42", "--horizon=128"],
     "water": [*OVERWORLD, "--at=-180,60,104", "--look=152,-20", "--time=0.42", "--horizon=256"],

@@ -5,6 +5,7 @@
 #if TERRANE_HAS_EXR
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfStringAttribute.h>
 

@@ -42,6 +42,11 @@ alpha = "glow"
 emission = [15, 15, 15]
 
 [[block]]
+name = "quarter_lamp"
+like = "lamp"
+texture = "quarter"
+
+[[block]]
 name = "gray_lamp"
 shape = "cube"
 texture = "188_255"
@@ -61,9 +66,17 @@ opacity = 1
     return registry;
 }
 
+// Black; a quarter of it glows, beside a corner.
+inline base::Image quarterTexture() {
+    base::Image image{4, 4, std::vector<std::uint8_t>(64, 0)};
+    for (const std::size_t k : {0u, 1u, 4u, 5u}) image.rgba[4 * k + 3] = 255;
+    return image;
+}
+
 inline std::vector<Texture> pathTextures() {
     return loadTextures(pathBlocks(),
                         [](std::string_view text) -> base::Result<base::Image> {
+                            if (text == "quarter") return quarterTexture();
                             // That of unknown blocks has another name.
                             const std::string name(text.find('_') == text.npos ? "255_255" : text);
                             const std::size_t cut = name.find('_');

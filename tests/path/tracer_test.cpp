@@ -77,6 +77,20 @@ TEST(TracerTest, ALampLightsThePlaneBelowAsASquareDoes) {
     lampAlone(45);
 }
 
+// It emits as much as one that glows all over, from a quarter of each face.
+TEST(TracerTest, LightRaysGoToThePartOfAFaceThatGlows) {
+    const Scene scene(pathParts(
+        [](int x, int y, int z) {
+            if (x == 0 && y == 0 && z == 16) return "quarter_lamp";
+            return z < 10 ? "gray" : nullptr;
+        },
+        evenSky(glm::vec3(0))));
+    const double expected = grayAlbedo() * double{kLampRadiance} * squareFactor(0.5, 6);
+    const Estimate found = estimate(scene, lookDown({0.5, 0.5, 10.5}), 100'000);
+    EXPECT_NEAR(found.mean, expected, 3.5 * found.error + 0.01 * expected);
+    EXPECT_LT(found.error, 0.01 * expected);
+}
+
 TEST(TracerTest, SkyOverAPitLightsItsGroundAsASquareDoes) {
     for (const int depth : {1, 3}) {
         const Scene scene(pathParts(
