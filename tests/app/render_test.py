@@ -243,7 +243,7 @@ class Render(ProgramTest):
         self.succeed("render", *place, "--samples", "2", "--denoise", "--lens", "0.5", "--focus", "4", "-o", resumed)
         self.assertNotEqual(Image(straight).rows, Image(resumed).rows)
         other = run("render", *place, "--time", "0.3", "--resume", samples, "-o", resumed)
-        self.assertEqual(other.returncode, 1)
+        self.assertEqual(other.returncode, 2)
         self.assertIn("samples are of another image", other.stderr)
 
 
