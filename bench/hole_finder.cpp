@@ -7,7 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "terrane/shared/ray_step.h"
-#include "terrane/stream/tile_pipeline.h"
+#include "terrane/view/path_scene.h"
 #include "terrane/world/sky/environment.h"
 
 namespace terrane::bench {
@@ -82,10 +82,7 @@ glm::dvec3 PixelRays::at(double x, double y) const {
 const world::Chunk& ShownBlocks::whole(ChunkPos pos) {
     const auto found = whole_.find(pos);
     if (found != whole_.end()) return found->second;
-    store::LoadedChunk saved = session_.store().load(pos);
-    world::Chunk chunk = saved.chunk ? std::move(*saved.chunk) : session_.generators().generate(pos);
-    if (pos.level > 0) stream::raiseDeepFloor(chunk, session_.blocks());
-    return whole_.emplace(pos, std::move(chunk)).first->second;
+    return whole_.emplace(pos, view::wholeChunk(session_, pos)).first->second;
 }
 
 ShownBlocks::Area ShownBlocks::areaAt(int x, int y) {

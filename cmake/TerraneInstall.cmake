@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules base shared world content_files content sound_files sound video store gen lua store_postgres light mesh rays stream map volume format_files formats game pack io net net_postgres)
+set(modules base shared world content_files content sound_files sound video store gen lua store_postgres light mesh rays path stream map volume format_files formats game pack io net net_postgres)
 set(TERRANE_OPTIONAL_PKG "")
 set(TERRANE_OPTIONAL_REQUIRES "")
 if(TERRANE_GRAPHICS)
@@ -22,6 +22,10 @@ endif()
 if(TERRANE_HAS_SOUND)
   string(APPEND TERRANE_OPTIONAL_PKG " openal=openal")
   string(APPEND TERRANE_OPTIONAL_REQUIRES " openal")
+endif()
+if(TERRANE_HAS_EXR)
+  string(APPEND TERRANE_OPTIONAL_PKG " openexr=OpenEXR")
+  string(APPEND TERRANE_OPTIONAL_REQUIRES " OpenEXR")
 endif()
 
 # Everything under one name.
@@ -131,7 +135,7 @@ It needs no OpenGL and no display.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.83-dev | libboost1.81-dev, libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, libicu-dev, liblua5.4-dev, liblz4-dev, \
-libopenal-dev, libpng-dev, libpq-dev, libsodium-dev, libspdlog-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libxxhash-dev, libzip-dev, libzstd-dev, nlohmann-json3-dev, zlib1g-dev")
+libopenal-dev, libopenexr-dev, libpng-dev, libpq-dev, libsodium-dev, libspdlog-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libxxhash-dev, libzip-dev, libzstd-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library that Terrane is made of: generation, saves, light, meshes, drawing.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-terrane)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

@@ -1,8 +1,12 @@
 // Builds a lit hamlet by the shore into a world: a program that edits blocks as a player does. Draw it with
 //
-//     village VILLAGE.sqlite X,Y
+//     village VILLAGE.sqlite X,Y [hall]
 //     terrane render --world VILLAGE.sqlite --at X,Y,Z --look YAW,PITCH --time 0.82 -o village.png
+//
+// With `hall` it builds a hall of glass with its middle there, and a cave with lamps below, for images of the
+// path tracer (tools/path_images.py).
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -160,7 +164,60 @@ void buildJetty(Site& site) {
     }
 }
 
-base::Result<int> build(const std::string& path, BlockPos middle) {
+// A hall of colored glass between pillars, with a basin of water. Returns the layer of its floor.
+int buildHall(Site& site) {
+    constexpr int kHalfLength = 14, kHalfWidth = 6, kHeight = 9;
+    constexpr const char* kColors[] = {"red_glass", "orange_glass", "yellow_glass", "green_glass",
+                                       "blue_glass"};
+    const auto [mx, my, unused] = site.middle;
+    const int floor = site.groundAt(mx, my);
+    const int x0 = mx - kHalfLength, x1 = mx + kHalfLength, y0 = my - kHalfWidth, y1 = my + kHalfWidth;
+    site.fill({x0 - 3, y0 - 3, floor + 1}, {x1 + 3, y1 + 3, floor + 20}, "air");
+    site.fill({x0 - 3, y0 - 3, floor - 3}, {x1 + 3, y1 + 3, floor}, "stone_bricks");
+    for (int x = x0; x <= x1; ++x) {
+        for (int y = y0; y <= y1; ++y)
+            if (((x + y) & 1) == 0) site.put({x, y, floor}, "birch_planks");
+        const bool isPillar = (x - x0) % 4 == 0;
+        const char* wall = isPillar ? "stone_bricks" : kColors[static_cast<unsigned>(x - x0) / 4 % 5];
+        for (const int y : {y0, y1}) {
+            site.fill({x, y, floor + 1}, {x, y, floor + kHeight}, wall);
+            if (isPillar) site.put({x, y + (y == y0 ? 1 : -1), floor + 5}, "lantern");
+        }
+        for (int rise = 0; rise <= kHalfWidth; ++rise) {
+            const char* roof = isPillar ? "spruce_planks" : "white_glass";
+            for (const int y : {y0 + rise, y1 - rise}) site.put({x, y, floor + kHeight + rise / 2}, roof);
+        }
+    }
+    site.fill({mx - 6, my - 2, floor - 2}, {mx + 6, my + 2, floor}, "air");
+    site.fill({mx - 6, my - 2, floor - 2}, {mx + 6, my + 2, floor - 1}, "water");
+    return floor;
+}
+
+// A cave with uneven walls below the hall, with lamps on its floor.
+void buildLampCave(Site& site, int top) {
+    constexpr const char* kLamps[] = {"lamp_white", "lantern", "lamp_red", "lamp_blue", "torch"};
+    const auto [mx, my, unused] = site.middle;
+    const int mz = top - 16;
+    site.fill({mx - 24, my - 18, mz - 10}, {mx + 24, my + 18, mz + 10}, "stone");
+    const auto isOpen = [&](int x, int y, int z) {
+        const double u = (x - mx) / 20.0, v = (y - my) / 14.0, w = (z - mz) / 7.0;
+        const double bumps =
+            0.2 * std::sin(x * 0.7 + z * 0.3) * std::sin(y * 0.6) + 0.15 * std::sin(z * 0.9 + x);
+        return u * u + v * v + w * w + bumps < 1;
+    };
+    for (int z = mz - 9; z <= mz + 9; ++z)
+        for (int y = my - 17; y <= my + 17; ++y)
+            for (int x = mx - 23; x <= mx + 23; ++x)
+                if (isOpen(x, y, z)) site.put({x, y, z}, "air");
+    for (int k = 0; k < 5; ++k) {
+        const int x = mx - 12 + 6 * k, y = my + (k % 2 == 0 ? -4 : 5);
+        int z = mz;
+        while (site.nameAt({x, y, z - 1}) == "air") --z;
+        site.put({x, y, z}, kLamps[k]);
+    }
+}
+
+base::Result<int> build(const std::string& path, BlockPos middle, bool isHall) {
     auto loaded = content::loadBlocks();
     if (!loaded) return tl::unexpected(loaded.error());
     auto blocks = std::make_unique<const world::BlockRegistry>(std::move(*loaded));
@@ -178,8 +235,13 @@ base::Result<int> build(const std::string& path, BlockPos middle) {
     game::Session session({std::move(blocks), std::move(*generators), std::move(*opened), 2});
     loadAround(session, {middle.x >> 4, middle.y >> 4});
     Site site{session, middle};
-    buildJetty(site);
-    const int houses = buildHouses(site);
+    int houses = 1;
+    if (isHall) {
+        buildLampCave(site, buildHall(site));
+    } else {
+        buildJetty(site);
+        houses = buildHouses(site);
+    }
     loadAround(session, {middle.x >> 4, middle.y >> 4});
     if (auto saved = session.save(); !saved) return tl::unexpected(saved.error());
     return houses;
@@ -189,9 +251,10 @@ base::Result<int> build(const std::string& path, BlockPos middle) {
 
 int main(int argc, char** argv) {
     BlockPos middle{};
-    if (argc != 3 || std::sscanf(argv[2], "%d,%d", &middle.x, &middle.y) != 2)
-        return std::fprintf(stderr, "usage: village VILLAGE.sqlite X,Y\n"), 1;
-    const auto houses = build(argv[1], middle);
+    const bool isHall = argc == 4 && std::string(argv[3]) == "hall";
+    if ((argc != 3 && !isHall) || std::sscanf(argv[2], "%d,%d", &middle.x, &middle.y) != 2)
+        return std::fprintf(stderr, "usage: village VILLAGE.sqlite X,Y [hall]\n"), 1;
+    const auto houses = build(argv[1], middle, isHall);
     if (!houses) return std::fprintf(stderr, "%s\n", houses.error().message.c_str()), 1;
     std::printf("%d houses\n", *houses);
 }

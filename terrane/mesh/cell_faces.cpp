@@ -13,6 +13,22 @@ using world::BlockType;
 using world::Face;
 using world::Shape;
 
+bool isVisible(const CellBlock& self, const CellBlock& beside, uint side,
+               const world::BlockRegistry& blocks) {
+    if (blocks.type(beside.id).opaqueCube) return false;
+    return beside.id != self.id || !hidesSameType(blocks.type(self.id), static_cast<Face>(side), blocks);
+}
+
+// Block state of a growing plant counts the stages left.
+std::uint16_t materialOf(const BlockType& type, std::uint16_t state, uint side) {
+    const auto left = std::min<std::size_t>(state, type.growth.size());
+    return left > 0 ? type.growth[left - 1] : type.material[side];
+}
+
+CellFace faceOf(uint shapeFace, std::uint16_t material, const world::BlockRegistry& blocks) {
+    return {static_cast<std::uint16_t>(shapeFace), material, blocks.materials()[material].twoSided};
+}
+
 class CellFaces {
   public:
     CellFaces(const CellSurroundings& around, const world::BlockRegistry& blocks, std::vector<CellFace>& out)
@@ -43,21 +59,15 @@ class CellFaces {
 
     // Whether a side of the cell is drawn.
     bool isVisible(uint side) const {
-        const CellBlock& next = around_.beside[side];
-        if (typeOf(next).opaqueCube) return false;
-        return next.id != around_.self.id || !hidesSameType(type_, static_cast<Face>(side), blocks_);
+        return mesh::isVisible(around_.self, around_.beside[side], side, blocks_);
     }
 
     void push(uint shapeFace, std::uint16_t material, bool isTwoSided = false) {
-        out_.push_back({static_cast<std::uint16_t>(shapeFace), material,
-                        isTwoSided || blocks_.materials()[material].twoSided});
+        out_.push_back(faceOf(shapeFace, material, blocks_));
+        out_.back().isTwoSided |= isTwoSided;
     }
 
-    // Block state of a growing plant counts the stages left.
-    void pushSide(uint shapeFace, uint side) {
-        const auto left = std::min<std::size_t>(around_.self.state, type_.growth.size());
-        push(shapeFace, left > 0 ? type_.growth[left - 1] : type_.material[side]);
-    }
+    void pushSide(uint shapeFace, uint side) { push(shapeFace, materialOf(type_, around_.self.state, side)); }
 
     void addSides(uint first, uint end, uint shapeFaceOfNegX) {
         for (uint side = first; side < end; ++side)
@@ -145,6 +155,13 @@ class CellFaces {
 void addCellFaces(const CellSurroundings& around, const world::BlockRegistry& blocks,
                   std::vector<CellFace>& out) {
     CellFaces(around, blocks, out).add();
+}
+
+std::optional<CellFace> cubeFace(const CellBlock& self, const CellBlock& beside, world::Face side,
+                                 const world::BlockRegistry& blocks) {
+    if (!isVisible(self, beside, side, blocks)) return std::nullopt;
+    const BlockType& type = blocks.type(self.id);
+    return faceOf(shared::kShapeFaceCube + side, materialOf(type, self.state, side), blocks);
 }
 
 }  // namespace terrane::mesh

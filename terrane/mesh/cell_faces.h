@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "terrane/world/blocks/block_registry.h"
@@ -36,5 +37,9 @@ struct CellFace {
 // Appends the faces of `around.self`.
 void addCellFaces(const CellSurroundings& around, const world::BlockRegistry& blocks,
                   std::vector<CellFace>& out);
+
+// Returns the face of one side of a cube, or none if it is hidden: for rays that meet two sides of a cube.
+std::optional<CellFace> cubeFace(const CellBlock& self, const CellBlock& beside, world::Face side,
+                                 const world::BlockRegistry& blocks);
 
 }  // namespace terrane::mesh

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <optional>
 
@@ -14,6 +13,10 @@ namespace {
 
 using shared::Ray, shared::RayHit, shared::RayPlace, shared::ShapeFace;
 using world::ChunkPos;
+
+const world::BlockRegistry& blocksOf(const SurfaceScene& scene, int level) {
+    return level == 0 ? *scene.blocks : *scene.farBlocks;
+}
 
 // A cell where a ray is, with the ray in units of the cell from its lowest corner.
 struct Cell {
@@ -129,21 +132,101 @@ glm::vec2 texelAt(const ShapeFace& face, const glm::dvec2& corner) {
     return far + (upper - far) * (1 - at.x) + (right - far) * (1 - at.y);
 }
 
-// The face of an opaque cube that the ray enters.
-Surface cubeSurface(const Cell& cell, const RayHit& hit, const world::BlockRegistry& blocks) {
-    const world::BlockIndex block = world::blockIndex(cell.x, cell.y, cell.z);
-    const std::uint16_t material = blocks.type(cell.chunk->block(block)).material[hit.face];
-    const glm::dvec3 at = cell.origin + cell.direction * double{hit.t};
+// A side of a cube that the ray passes at t.
+Surface cubeSurface(const Cell& cell, const mesh::CellFace& face, float t, bool isFront) {
+    const glm::dvec3 at = cell.origin + cell.direction * double{t};
     // As the texture lies on the sides of a cube: from its upper left corner.
     const float x = static_cast<float>(at.x), y = static_cast<float>(at.y), z = static_cast<float>(at.z);
     const std::array<glm::vec2, 6> texels{glm::vec2{1 - y, 1 - z}, {y, 1 - z}, {x, 1 - z},
                                           {1 - x, 1 - z},          {x, y},     {x, 1 - y}};
     return {.tile = cell.tile,
-            .block = block,
-            .face = {static_cast<std::uint16_t>(shared::kShapeFaceCube + hit.face), material,
-                     blocks.materials()[material].twoSided},
-            .t = hit.t,
-            .texel = texels[hit.face]};
+            .block = world::blockIndex(cell.x, cell.y, cell.z),
+            .face = face,
+            .t = t,
+            .texel = texels[face.shapeFace - shared::kShapeFaceCube],
+            .isFront = isFront};
+}
+
+Surface opaqueCubeSurface(const Cell& cell, const RayHit& hit, const world::BlockRegistry& blocks) {
+    const world::BlockId id = cell.chunk->block(world::blockIndex(cell.x, cell.y, cell.z));
+    const std::uint16_t material = blocks.type(id).material[hit.face];
+    const mesh::CellFace face{static_cast<std::uint16_t>(shared::kShapeFaceCube + hit.face), material,
+                              blocks.materials()[material].twoSided};
+    return cubeSurface(cell, face, hit.t, true);
+}
+
+// Where a ray leaves a cell: t, and the side.
+struct CellExit {
+    float t;
+    world::Face side;
+};
+CellExit exitOf(const Ray& ray, const RayPlace& place, int level) {
+    const glm::ivec4 end = shared::rayBoxEnd(place.cell, level, 0);
+    CellExit exit{0, world::kFaceNegX};
+    for (int axis = 0; axis < 3; ++axis) {
+        const float t = shared::rayPlaneT(shared::rayDistance(ray.cell[axis], end[axis]), ray.start[axis],
+                                          ray.inverse[axis]);
+        if (axis == 0 || t < exit.t) exit = {t, static_cast<world::Face>(2 * axis + 1 + ray.mirror[axis])};
+    }
+    return exit;
+}
+
+std::optional<mesh::CellFace> cubeFaceOf(const SurfaceScene& scene, const Cell& cell, unsigned side,
+                                         const world::BlockRegistry& blocks) {
+    const mesh::CellBlock self = blockAt(*cell.chunk, cell.x, cell.y, cell.z);
+    glm::ivec3 at(cell.x, cell.y, cell.z);
+    at[static_cast<int>(side / 2)] += side % 2 == 0 ? -1 : 1;
+    return mesh::cubeFace(self, blockBeside(scene, cell, at, self.id), static_cast<world::Face>(side),
+                          blocks);
+}
+
+// Of a cube that is not opaque, a ray meets the side where it enters and the back of that where it leaves.
+void addCubeSurfaces(const SurfaceScene& scene, const Ray& ray, const RayHit& hit, const Cell& cell,
+                     SurfaceWalk& walk) {
+    const world::BlockRegistry& blocks = blocksOf(scene, hit.level);
+    if (hit.face < shared::kRayFaceNone) {
+        if (const auto face = cubeFaceOf(scene, cell, hit.face, blocks))
+            walk.surfaces.push_back(cubeSurface(cell, *face, hit.t, true));
+    }
+    const CellExit exit = exitOf(ray, walk.place, hit.level);
+    if (exit.t > ray.start.w) return;
+    if (const auto face = cubeFaceOf(scene, cell, exit.side, blocks); face && face->isTwoSided)
+        walk.surfaces.push_back(cubeSurface(cell, *face, exit.t, false));
+}
+
+// Whether a ray passes a cell of liquid between cells of the same, still liquid: it meets nothing there.
+bool isInsideLiquid(const SurfaceScene& scene, const Ray& ray, const RayHit& hit, const Cell& cell,
+                    const SurfaceWalk& walk) {
+    const mesh::CellBlock self = blockAt(*cell.chunk, cell.x, cell.y, cell.z);
+    const auto isSame = [&](const mesh::CellBlock& other) {
+        return other.id == self.id && other.state == self.state;
+    };
+    if (self.state != 0 || hit.face >= shared::kRayFaceNone ||
+        !isSame(blockAt(*cell.chunk, cell.x, cell.y, cell.z + 1)))
+        return false;
+    const auto isSameBeside = [&](unsigned side) {
+        glm::ivec3 at(cell.x, cell.y, cell.z);
+        at[static_cast<int>(side / 2)] += side % 2 == 0 ? -1 : 1;
+        return isSame(blockBeside(scene, cell, at, self.id));
+    };
+    return isSameBeside(hit.face) && isSameBeside(exitOf(ray, walk.place, hit.level).side);
+}
+
+void addShapeSurfaces(const SurfaceScene& scene, const Ray& ray, const Cell& cell, SurfaceWalk& walk) {
+    const world::BlockRegistry& blocks = blocksOf(scene, cell.tile.level);
+    walk.faces.clear();
+    mesh::addCellFaces(surroundingsOf(scene, cell, blocks), blocks, walk.faces);
+    for (const mesh::CellFace& face : walk.faces) {
+        const ShapeFace& shape = scene.shapeFaces[face.shapeFace];
+        const std::optional<FaceHit> met = hitFace(cell, shape);
+        if (!met || met->t < 0 || met->t > double{ray.start.w} || !(met->isFront || face.isTwoSided))
+            continue;
+        walk.surfaces.push_back({cell.tile, world::blockIndex(cell.x, cell.y, cell.z), face,
+                                 static_cast<float>(met->t), texelAt(shape, met->corner), met->isFront});
+    }
+    if (walk.surfaces.size() > 1)
+        std::stable_sort(walk.surfaces.begin(), walk.surfaces.end(),
+                         [](const Surface& a, const Surface& b) { return a.t < b.t; });
 }
 
 }  // namespace
@@ -152,36 +235,43 @@ StopTable drawnBlocks(const world::BlockRegistry& blocks) {
     return stopTable(blocks, [](const world::BlockType& type) { return type.shape != world::Shape::None; });
 }
 
-void forEachSurface(const SurfaceScene& scene, const Ray& ray,
-                    const std::function<bool(const Surface&)>& use) {
-    std::vector<mesh::CellFace> faces;
-    std::vector<Surface> surfaces;
-    for (RayPlace place = shared::rayBegin(ray);;) {
-        const RayHit hit = shared::castRayFrom(scene.cells, ray, place);
-        if (hit.face == shared::kRayMiss) return;
-        const world::BlockRegistry& blocks = hit.level == 0 ? *scene.blocks : *scene.farBlocks;
+void addFacesOf(const SurfaceScene& scene, ChunkPos tile, glm::ivec3 inTile,
+                std::vector<mesh::CellFace>& faces) {
+    const Cell cell{.tile = tile,
+                    .chunk = scene.chunkAt(tile),
+                    .x = inTile.x,
+                    .y = inTile.y,
+                    .z = inTile.z,
+                    .origin = glm::dvec3(0),
+                    .direction = glm::dvec3(0)};
+    base::require(cell.chunk != nullptr, "addFacesOf: the scene has no such tile");
+    const world::BlockRegistry& blocks = blocksOf(scene, tile.level);
+    mesh::addCellFaces(surroundingsOf(scene, cell, blocks), blocks, faces);
+}
+
+bool nextSurfaces(const SurfaceScene& scene, const Ray& ray, SurfaceWalk& walk) {
+    walk.surfaces.clear();
+    while (!walk.isOver && walk.surfaces.empty()) {
+        const RayHit hit = shared::castRayFrom(scene.cells, ray, walk.place);
+        walk.isOver = hit.face == shared::kRayMiss;
+        if (walk.isOver) break;
+        const world::BlockRegistry& blocks = blocksOf(scene, hit.level);
         const Cell cell = cellAt(scene, ray, hit);
-        const world::BlockIndex block = world::blockIndex(cell.x, cell.y, cell.z);
-        if (blocks.type(cell.chunk->block(block)).opaqueCube) {
-            if (hit.face < shared::kRayFaceNone) use(cubeSurface(cell, hit, blocks));
-            return;
+        const world::BlockType& type =
+            blocks.type(cell.chunk->block(world::blockIndex(cell.x, cell.y, cell.z)));
+        if (type.opaqueCube) {
+            walk.isOver = true;
+            walk.isEnclosed = hit.face == shared::kRayFaceNone;
+            if (!walk.isEnclosed) walk.surfaces.push_back(opaqueCubeSurface(cell, hit, blocks));
+            break;
         }
-        faces.clear();
-        surfaces.clear();
-        mesh::addCellFaces(surroundingsOf(scene, cell, blocks), blocks, faces);
-        for (const mesh::CellFace& face : faces) {
-            const ShapeFace& shape = scene.shapeFaces[face.shapeFace];
-            const std::optional<FaceHit> met = hitFace(cell, shape);
-            if (!met || met->t < 0 || met->t > double{ray.start.w} || !(met->isFront || face.isTwoSided))
-                continue;
-            surfaces.push_back({cell.tile, block, face, static_cast<float>(met->t),
-                                texelAt(shape, met->corner), met->isFront});
-        }
-        std::stable_sort(surfaces.begin(), surfaces.end(),
-                         [](const Surface& a, const Surface& b) { return a.t < b.t; });
-        if (std::any_of(surfaces.begin(), surfaces.end(), std::ref(use))) return;
-        shared::rayLeaveBox(ray, place, shared::rayBoxEnd(place.cell, hit.level, 0));
+        if (type.shape == world::Shape::Cube)
+            addCubeSurfaces(scene, ray, hit, cell, walk);
+        else if (type.shape != world::Shape::Liquid || !isInsideLiquid(scene, ray, hit, cell, walk))
+            addShapeSurfaces(scene, ray, cell, walk);
+        shared::rayLeaveBox(ray, walk.place, shared::rayBoxEnd(walk.place.cell, hit.level, 0));
     }
+    return !walk.surfaces.empty();
 }
 
 }  // namespace terrane::rays

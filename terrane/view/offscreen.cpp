@@ -13,8 +13,8 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(game::SessionParts pa
     auto context = TERRANE_TRY(gpu::HeadlessContext::create({.debug = settings.debugGl}));
     gpu::ShaderLoader shaders = gpu::builtInShaders(settings.shaderRoot);
     gpu::DeviceInfo device = render::checkedDevice(shaders);
-    std::unique_ptr<Offscreen> made(
-        new Offscreen{std::move(context), std::move(shaders), std::move(device), {}, {}, {}, {}, {}});
+    std::unique_ptr<Offscreen> made(new Offscreen{
+        std::move(context), std::move(shaders), std::move(device), {}, {}, {}, {}, {}, textures});
     if (settings.usesGpu) {
         auto backEnds = TERRANE_TRY(useGpuBackEnds(parts, generators));
         made->backEnds = std::move(backEnds);

@@ -51,6 +51,7 @@ struct Offscreen {
     std::unique_ptr<game::Session> session;
     render::Renderer renderer;
     std::optional<WorldView> view;
+    world::TextureSource textures;
 };
 
 }  // namespace terrane::view

@@ -77,7 +77,7 @@ class Bash(HelpTest):
         self.assertEqual(self.complete("terrane", "render", "--mer"), ["--merging"])
         self.assertEqual(self.complete("terrane", "render", "--merging", "s"), ["squares", "squares-ext"])
         self.assertEqual(self.complete("terrane", "--merging", "g"), ["greedy"], "play is the default")
-        self.assertEqual(self.complete("terrane", "render", "--samples", ""), ["1", "2", "4", "8"])
+        self.assertEqual(self.complete("terrane", "flight-bench", "--samples", ""), ["1", "2", "4", "8"])
         self.assertEqual(self.complete("terrane", "render", "--seed", ""), [])
         self.assertEqual(self.complete("terrane", "completion", "z"), ["zsh"])
 

@@ -230,6 +230,22 @@ class Render(ProgramTest):
         self.succeed("render", "--scene", "cave", "--size", "40x30", "--view-distance", "1", "--samples", "4", "-o", path)
         self.assertEqual(Image(path).width, 40)
 
+    def test_paths_are_traced_and_resumed(self):
+        place = ("--renderer", "path", *FLAT, "--at", "8,8,84", "--look", "30,-20", "--size", "40x30", "--view-distance", "1",
+                 "--horizon", "0")
+        straight, resumed, samples = (self.folder / name for name in ("a.png", "b.png", "b.samples"))
+        self.succeed("render", *place, "--samples", "3", "-o", straight)
+        self.succeed("render", *place, "--samples", "1", "--threads", "1", "--resume", samples, "-o", resumed)
+        self.assertNotEqual(Image(straight).rows, Image(resumed).rows)
+        text = self.succeed("render", *place, "--samples", "3", "--resume", samples, "--json", "-o", resumed)
+        self.assertEqual(json.loads(text)["traced_samples"], 2)
+        self.assertEqual(Image(straight).rows, Image(resumed).rows)
+        self.succeed("render", *place, "--samples", "2", "--denoise", "--lens", "0.5", "--focus", "4", "-o", resumed)
+        self.assertNotEqual(Image(straight).rows, Image(resumed).rows)
+        other = run("render", *place, "--time", "0.3", "--resume", samples, "-o", resumed)
+        self.assertEqual(other.returncode, 2)
+        self.assertIn("samples are of another image", other.stderr)
+
 
 if __name__ == "__main__":
     support.main()

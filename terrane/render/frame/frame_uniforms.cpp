@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "terrane/render/frame/tone.h"
+
 namespace terrane::render {
 namespace {
 
 constexpr float kAmbientFromBelow = 0.4f;  // share of the sky's light on faces that look down
-constexpr float kExposure = 0.92f;
 
 static_assert(static_cast<shared::uint>(View::Normal) == shared::kViewNormal &&
               static_cast<shared::uint>(View::Depth) == shared::kViewDepth &&

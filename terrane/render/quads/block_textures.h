@@ -11,13 +11,13 @@
 // a draw.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "terrane/base/image.h"
 #include "terrane/base/result.h"
+#include "terrane/base/srgb.h"
 #include "terrane/gpu/texture.h"
 #include "terrane/world/blocks/block_model.h"
 #include "terrane/world/blocks/block_registry.h"
@@ -25,13 +25,7 @@
 
 namespace terrane::render {
 
-// These convert between sRGB and linear light (IEC 61966-2-1), 0…1.
-inline float decodeSrgb(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-inline float encodeSrgb(float v) {
-    return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
-}
+using base::decodeSrgb, base::encodeSrgb;
 
 // Returns mipmaps that preserve the appearance of the full size. Level 0 is the image, except that texels
 // hidden by a tested alpha take the colors around them; each next level is half as large, down to 1×1. The
