@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "terrane/shared/ray_step.h"
 #include "terrane/view/path_scene.h"
@@ -99,6 +100,22 @@ ShownBlocks::Area ShownBlocks::areaAt(int x, int y) {
     return area;
 }
 
+// Caves end before tiles (stream::closeCaves): the distance of the last layer of blocks of a chunk that the
+// ray leaves at `distance`, if it is dark there.
+double ShownBlocks::closedCave(const glm::dvec3& origin, const glm::dvec3& direction, double distance) const {
+    constexpr double kInside = 1e-3;  // blocks
+    const glm::dvec3 leaving = origin + direction * (distance - kInside);
+    double layer = distance;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double within = leaving[axis] - std::floor(leaving[axis] / 16) * 16;
+        const double beyond = direction[axis] > 0 ? 16 - within : within;
+        if (beyond < 2 * kInside) layer = std::min(layer, distance - 1 / std::abs(direction[axis]));
+    }
+    const glm::ivec3 last(glm::floor(origin + direction * std::max(layer + kInside, 0.0)));
+    const std::optional<light::LightValue> light = session_.pipeline().lightAt({last.x, last.y, last.z});
+    return light && light::levelOf(*light, light::kDaylight) == 0 ? layer : kNothing;
+}
+
 RayEnd ShownBlocks::cast(const glm::dvec3& origin, const glm::dvec3& direction, double mostBlocks) {
     const world::Heights heights = session_.world().heights();
     const glm::dvec3 corner = glm::floor(origin);
@@ -113,7 +130,9 @@ RayEnd ShownBlocks::cast(const glm::dvec3& origin, const glm::dvec3& direction, 
         const glm::ivec3 at = place.cell ^ ray.mirror;
         if (ray.mirror.z != 0 ? at.z < heights.bottom : at.z >= heights.top) break;
         if (areaShift < 0 || glm::ivec2(at) >> areaShift != areaCorner) {
-            area = areaAt(at.x, at.y);
+            const Area before = std::exchange(area, areaAt(at.x, at.y));
+            if (before.whole && before.pos.level == 0 && area.whole && area.pos.level > 0)
+                end.closed = std::min(end.closed, closedCave(origin, direction, place.t));
             areaShift = 4 + (area.whole ? area.pos.level : 0);
             areaCorner = glm::ivec2(at) >> areaShift;
         }
@@ -221,15 +240,18 @@ HoleCount findHoles(render::Renderer& renderer, ShownBlocks& blocks, const rende
             const Interval& at = drawn[static_cast<std::size_t>(x + y * size.x)];
             const double ground = ends[static_cast<std::size_t>(x + 1 + (y + 1) * wide.x)].ground;
             count.pixels += ground != kNothing;
-            if (agrees(at, near(x, y))) continue;
-            const Range range = nearInDetail(x, y);
+            const auto isClosed = [&](const Range& range) {
+                return !isBehind(at, range.farthest) && !isBefore(at, range.nearestClosed);
+            };
+            Range range = near(x, y);
+            if (agrees(at, range)) continue;
+            if (!isClosed(range)) range = nearInDetail(x, y);
             if (agrees(at, range)) continue;
             const bool isHole = isBehind(at, range.farthest);
-            const bool isClosed = !isHole && !isBefore(at, range.nearestClosed);
             count.holes += isHole;
-            count.closed += isClosed;
-            count.walls += !isHole && !isClosed;
-            if (!isClosed)
+            count.closed += isClosed(range);
+            count.walls += !isHole && !isClosed(range);
+            if (!isClosed(range))
                 count.where.push_back({{x, y}, at.low, ground, camera.position + rays.at(x, y) * ground});
         }
     }

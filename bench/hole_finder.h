@@ -40,7 +40,8 @@ class PixelRays {
 // Where a ray ends, in blocks from the camera; kNothing if it meets no opaque cube.
 struct RayEnd {
     double ground = 0;  // the first opaque cube of the generator
-    double closed = 0;  // the first block that is not made yet, or the ground if that is nearer
+    double closed =
+        0;  // the first block that is not made yet or closes a cave, or the ground if that is nearer
 };
 
 // The blocks on screen: of chunks and tiles that are shown, down to the bottom of the world, as they are
@@ -61,6 +62,7 @@ class ShownBlocks {
         int lowestMade = world::kLowestSection;
     };
     Area areaAt(int x, int y);
+    double closedCave(const glm::dvec3& origin, const glm::dvec3& direction, double distance) const;
 
     game::Session& session_;
     std::unordered_map<world::ChunkPos, world::Chunk, world::ChunkPosHash> whole_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "terrane/base/profile.h"
+#include "terrane/mesh/section_faces.h"
 #include "terrane/stream/depth.h"
 
 namespace terrane::stream {
@@ -78,6 +79,53 @@ light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::Light
     light::LocalLightNeighborhood neighborhood{};
     for (std::size_t n = 0; n < locals.size(); ++n) neighborhood[n] = locals[n].get();
     return std::make_shared<const light::ChunkLight>(light::lightChunk(neighborhood, lightScratch()));
+}
+
+namespace {
+
+// Closes caves at one side of the chunk. `closed` becomes a copy of it once there is something to close.
+void closeSide(const world::Chunk& chunk, std::size_t side, const light::ChunkLight& light,
+               const world::BlockRegistry& blocks, std::shared_ptr<world::Chunk>& closed) {
+    const int border = side % 2 == 0 ? 0 : world::kChunkSize - 1;
+    const auto indexOf = [&](int k, int z) {
+        return side < 2 ? world::blockIndex(border, k, z) : world::blockIndex(k, border, z);
+    };
+    std::array<world::BlockId, world::kChunkSize> roofs{};
+    const int lowest = std::max(chunk.lowestMade(), chunk.heights().firstSection());
+    for (int number = chunk.heights().endSection() - 1; number >= lowest; --number) {
+        const world::Section& section = chunk.section(number);
+        const light::LightBrick& brick = light.brick(number);
+        const bool isSky = section.isUniform() && section.uniformValue() == world::kAir &&
+                           brick.isUniform() && light::levelOf(brick.uniformValue(), light::kDaylight) > 0;
+        if (isSky) continue;
+        const bool isClosed = mesh::isAllOpaque(section, blocks);
+        const int bottom = number * world::kSectionSize;
+        for (int z = isClosed ? bottom : bottom + world::kSectionSize - 1; z >= bottom; --z) {
+            for (int k = 0; k < world::kChunkSize; ++k) {
+                world::BlockId& roof = roofs[static_cast<std::size_t>(k)];
+                const world::BlockIndex index = indexOf(k, z);
+                const world::BlockId block = chunk.block(index);
+                if (block != world::kAir && blocks.type(block).opaqueCube) {
+                    roof = block;
+                } else if (roof != world::kAir && light::levelOf(light.at(index), light::kDaylight) == 0) {
+                    if (!closed) closed = std::make_shared<world::Chunk>(chunk);
+                    closed->setBlock(index, roof);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+mesh::MeshBlocks closeCaves(const ChunkNeighborhood& around, const light::ChunkLight& light,
+                            const world::BlockRegistry& blocks) {
+    std::shared_ptr<world::Chunk> closed;
+    for (std::size_t side = 0; side < 4; ++side)
+        if ((around.openSides >> side & 1) != 0) closeSide(*around.meshed[0], side, light, blocks, closed);
+    mesh::MeshBlocks result = around.meshed;
+    if (closed) result[0] = std::move(closed);
+    return result;
 }
 
 MeshPtr meshOf(const mesh::MeshBlocks& chunks, const world::BlockRegistry& blocks,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 
 #include "terrane/gen/generator.h"
@@ -47,12 +48,16 @@ void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world:
 // Returns the light of a chunk's own blocks.
 LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table);
 
+// A set of sides, a bit for each in the order of mesh::MeshBlocks: -x, +x, -y, +y.
+using SideSet = std::uint8_t;
+
 // The input for the light and mesh of a chunk: 3×3 chunks, x + 3 y. A chunk is null beyond the world's edge,
 // which counts as air for meshes and as dark for light. Local light that is null is computed first.
 struct ChunkNeighborhood {
     std::array<world::ChunkPtr, 9> chunks;
     std::array<LocalLightPtr, 9> localLights;
-    mesh::MeshBlocks meshed;  // input of the mesh of the middle one
+    mesh::MeshBlocks meshed;  // input of the mesh of the middle one, before closeCaves()
+    SideSet openSides = 0;    // of the middle one: tiles lie there (meshing.h)
 };
 
 light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::LightTable& table);
@@ -60,6 +65,11 @@ light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::Light
 inline mesh::MeshBlocks meshBlocksOf(const std::array<world::ChunkPtr, 9>& chunks) {
     return {chunks[4], chunks[3], chunks[5], chunks[1], chunks[7]};
 }
+// Returns the input of the mesh of the middle one, with its caves closed toward tiles: these have none, so a
+// cave that goes on in a tile's place would end at the sunlit side of the tile. The outermost blocks become
+// those of the cave's roof where no daylight is.
+mesh::MeshBlocks closeCaves(const ChunkNeighborhood& around, const light::ChunkLight& light,
+                            const world::BlockRegistry& blocks);
 MeshPtr meshOf(const mesh::MeshBlocks& chunks, const world::BlockRegistry& blocks,
                const mesh::MeshOptions& options, mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
 

@@ -82,17 +82,17 @@ void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
 }
 
 mesh::MeshBlocks ChunkPipeline::meshBlocks(ChunkPos pos) const {
-    return around(pos).meshed;
+    const ChunkNeighborhood around = this->around(pos);
+    const ChunkRecord* record = findRecord(table_, pos);
+    return record && record->light ? closeCaves(around, *record->light, parts_.blocks) : around.meshed;
 }
 
 // The input for light and mesh of the chunk.
 ChunkNeighborhood ChunkPipeline::around(ChunkPos pos) const {
     ChunkNeighborhood around = neighborhoodOf(table_, parts_.world, pos);
-    const SideSet open = openSides(tileView_, pos);
-    if (open == 0) return around;
-    around.meshed[0] = closeCaves(around.meshed[0], open, parts_.blocks);
+    around.openSides = openSides(tileView_, pos);
     for (std::size_t side = 0; side < 4; ++side)
-        if ((open >> side & 1) != 0) around.meshed[1 + side] = beyond_;
+        if ((around.openSides >> side & 1) != 0) around.meshed[1 + side] = beyond_;
     return around;
 }
 
@@ -284,7 +284,8 @@ void ChunkPipeline::submitLighting() {
 void ChunkPipeline::submitMeshes() {
     for (const MeshJob& job : popMeshJobs(table_, roomFor(table_.meshJobCount))) {
         if (parts_.meshing == MeshPolicy::Workers) {
-            workers_.submitMesh(urgency(table_.view, job.pos), job, around(job.pos), meshOptions_);
+            workers_.submitMesh(urgency(table_.view, job.pos), job, findRecord(table_, job.pos)->light,
+                                around(job.pos), meshOptions_);
         } else if (finishMeshJob(table_, job)) {
             changes_.requestMesh(job.pos);
         }
@@ -344,8 +345,7 @@ void ChunkPipeline::showMesh(ChunkPos pos, mesh::MeshSectionSet meshSections) {
         (meshSections == mesh::kAllMeshSections || changes_.isMeshRequested(pos))) {
         return changes_.requestMesh(pos);
     }
-    changes_.setMesh(pos, meshOf(around(pos).meshed, parts_.blocks, meshOptions_, meshSections),
-                     meshSections);
+    changes_.setMesh(pos, meshOf(meshBlocks(pos), parts_.blocks, meshOptions_, meshSections), meshSections);
 }
 
 // Saves chunks some time after their edits, and unloads chunks that nobody needs.

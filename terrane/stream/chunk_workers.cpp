@@ -90,26 +90,30 @@ void ChunkWorkers::submitLighting(base::JobPriority priority, ChunkPos pos, Chun
                auto light = results.timed(kLight, [&] { return lightOf(around, *lights); });
                MeshPtr mesh;
                if (isMeshedHere)
-                   mesh = results.timed(kMesh, [&] { return meshOf(around.meshed, *blocks, options); });
+                   mesh = results.timed(
+                       kMesh, [&] { return meshOf(closeCaves(around, *light, *blocks), *blocks, options); });
                return WorkerResults::Lit{pos, std::move(light), std::move(mesh)};
            });
 }
 
 void ChunkWorkers::submitFirstMesh(base::JobPriority priority, ChunkPos pos, light::ChunkLightPtr light,
                                    const ChunkNeighborhood& around, const mesh::MeshOptions& options) {
-    submit(priority, [pos, light = std::move(light), chunks = around.meshed, options,
-                      blocks = &parts_.blocks](WorkerResults& results) {
-        auto mesh = results.timed(kMesh, [&] { return meshOf(chunks, *blocks, options); });
-        return WorkerResults::Lit{pos, light, std::move(mesh)};
-    });
+    submit(priority,
+           [pos, light = std::move(light), around, options, blocks = &parts_.blocks](WorkerResults& results) {
+               auto mesh = results.timed(
+                   kMesh, [&] { return meshOf(closeCaves(around, *light, *blocks), *blocks, options); });
+               return WorkerResults::Lit{pos, light, std::move(mesh)};
+           });
 }
 
-void ChunkWorkers::submitMesh(base::JobPriority priority, const MeshJob& job, const ChunkNeighborhood& around,
-                              const mesh::MeshOptions& options) {
-    submit(priority, [job, chunks = around.meshed, options, blocks = &parts_.blocks](WorkerResults& results) {
-        auto mesh = results.timed(kMesh, [&] { return meshOf(chunks, *blocks, options); });
-        return WorkerResults::Meshed{job, std::move(mesh)};
-    });
+void ChunkWorkers::submitMesh(base::JobPriority priority, const MeshJob& job, light::ChunkLightPtr light,
+                              const ChunkNeighborhood& around, const mesh::MeshOptions& options) {
+    submit(priority,
+           [job, light = std::move(light), around, options, blocks = &parts_.blocks](WorkerResults& results) {
+               auto mesh = results.timed(
+                   kMesh, [&] { return meshOf(closeCaves(around, *light, *blocks), *blocks, options); });
+               return WorkerResults::Meshed{job, std::move(mesh)};
+           });
 }
 
 WorkerResults::Lists ChunkWorkers::takeResults() {

@@ -35,8 +35,8 @@ class ChunkWorkers {
     void submitFirstMesh(base::JobPriority priority, world::ChunkPos pos, light::ChunkLightPtr light,
                          const ChunkNeighborhood& around, const mesh::MeshOptions& options);
     // Meshes a visible chunk again.
-    void submitMesh(base::JobPriority priority, const MeshJob& job, const ChunkNeighborhood& around,
-                    const mesh::MeshOptions& options);
+    void submitMesh(base::JobPriority priority, const MeshJob& job, light::ChunkLightPtr light,
+                    const ChunkNeighborhood& around, const mesh::MeshOptions& options);
 
     // Removes and returns the results. It rethrows exceptions of jobs, nearly always for lack of memory.
     WorkerResults::Lists takeResults();

@@ -6,8 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "terrane/mesh/section_faces.h"
-
 namespace terrane::stream {
 
 namespace {
@@ -94,70 +92,6 @@ world::ChunkPtr borderChunk(const world::BlockRegistry& blocks, world::Heights h
     for (int number = heights.firstSection(); number < heights.endSection(); ++number)
         chunk->setSection(number, world::Section(found->id));
     return chunk;
-}
-
-namespace {
-
-// Closes the caves at one side. `closed` is a copy of the chunk, made when there is something to close.
-class SideCloser {
-  public:
-    SideCloser(const world::Chunk& chunk, std::size_t side, const world::BlockRegistry& blocks)
-        : chunk_(chunk), side_(side), blocks_(blocks) {}
-
-    void run(std::shared_ptr<world::Chunk>& closed) const {
-        constexpr int kRoof = 8;  // blocks: hollows above are seen from outside
-        const int top = lowestGround() - kRoof;
-        std::array<world::BlockId, world::kChunkSize> roofs{};
-        const int lowest = std::max(chunk_.lowestMade(), chunk_.heights().firstSection());
-        for (int number = top >> 4; number >= lowest; --number) {
-            const bool isClosed = mesh::isAllOpaque(chunk_.section(number), blocks_);
-            const int bottom = number * world::kSectionSize;
-            for (int z = isClosed ? bottom : std::min(top, bottom + 15); z >= bottom; --z) {
-                for (int k = 0; k < world::kChunkSize; ++k) {
-                    world::BlockId& roof = roofs[static_cast<std::size_t>(k)];
-                    const world::BlockIndex index = indexOf(k, z);
-                    if (isOpaque(chunk_.block(index))) {
-                        roof = chunk_.block(index);
-                    } else if (roof != world::kAir) {
-                        if (!closed) closed = std::make_shared<world::Chunk>(chunk_);
-                        closed->setBlock(index, roof);
-                    }
-                }
-            }
-        }
-    }
-
-  private:
-    // Of column k of 16 at the side.
-    world::BlockIndex indexOf(int k, int z) const {
-        const int border = side_ % 2 == 0 ? 0 : world::kChunkSize - 1;
-        return side_ < 2 ? world::blockIndex(border, k, z) : world::blockIndex(k, border, z);
-    }
-    bool isOpaque(world::BlockId id) const { return id != world::kAir && blocks_.type(id).opaqueCube; }
-
-    int lowestGround() const {
-        int ground = chunk_.heights().top;
-        for (int k = 0; k < world::kChunkSize; ++k) {
-            int z = ground - 1;
-            while (z >= chunk_.heights().bottom && !isOpaque(chunk_.block(indexOf(k, z))))
-                z -= chunk_.section(z >> 4).isUniform() ? (z & 15) + 1 : 1;
-            ground = z + 1;
-        }
-        return ground;
-    }
-
-    const world::Chunk& chunk_;
-    std::size_t side_;
-    const world::BlockRegistry& blocks_;
-};
-
-}  // namespace
-
-world::ChunkPtr closeCaves(const world::ChunkPtr& chunk, SideSet sides, const world::BlockRegistry& blocks) {
-    std::shared_ptr<world::Chunk> closed;
-    for (std::size_t side = 0; side < 4; ++side)
-        if ((sides >> side & 1) != 0) SideCloser(*chunk, side, blocks).run(closed);
-    return closed ? world::ChunkPtr(std::move(closed)) : chunk;
 }
 
 void remeshBorders(ChunkTable& table, const TileView& before, const TileView& now) {

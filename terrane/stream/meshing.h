@@ -44,20 +44,12 @@ inline std::size_t pendingMeshes(const ChunkTable& table) {
 // neighbors: if a tile with lower land is in a neighbor's place, a gap would be visible. So the sides of
 // chunks are open there, as those of tiles are (mesh::meshTile): opaque faces go down to the bottom of the
 // world.
-// A set of sides, a bit for each in the order of mesh::MeshBlocks: -x, +x, -y, +y.
-using SideSet = std::uint8_t;
-
 // Returns the sides of a chunk beyond which tiles lie. A chunk that a tile replaces has none.
 SideSet openSides(const TileView& view, world::ChunkPos pos);
 
 // Returns the neighbor beyond an open side for meshing: all water, since faces of opaque blocks are drawn
 // toward it and those of water are not. Air if there is no liquid.
 world::ChunkPtr borderChunk(const world::BlockRegistry& blocks, world::Heights heights);
-
-// Returns the chunk with its caves closed on these sides, or the same one if none reaches them: tiles have no
-// caves, so a cave that goes on in a tile's place would end at the sunlit side of the tile. The outermost
-// blocks become those of the cave's roof, from some blocks below the lowest ground of the side down.
-world::ChunkPtr closeCaves(const world::ChunkPtr& chunk, SideSet sides, const world::BlockRegistry& blocks);
 
 // Requests new meshes of chunks whose open sides changed.
 void remeshBorders(ChunkTable& table, const TileView& before, const TileView& now);

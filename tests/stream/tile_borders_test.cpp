@@ -36,9 +36,9 @@ TEST(TileBorders, AreNowhereWithoutTilesOrBeyondTheWorld) {
     EXPECT_NE(openSides(view, world::offsetBy(corner, -3, 0)), 0);
 }
 
-// A cave through the whole chunk along x, one under an overhang, one that does not reach the border.
+// A dark cave through the whole chunk along x, one that daylight enters, one that does not reach the border.
 TEST(TileBorders, CavesAreClosedTowardTiles) {
-    constexpr std::int32_t kGround = 100;
+    constexpr int kGround = 100;
     const world::BlockId stone = contentBlocks().find("stone")->id, dirt = contentBlocks().find("dirt")->id;
     world::Chunk land;
     const auto fill = [&](world::BlockPos from, world::BlockPos to, world::BlockId block) {
@@ -49,19 +49,25 @@ TEST(TileBorders, CavesAreClosedTowardTiles) {
     fill({0, 0, 0}, {16, 16, 60}, stone);
     fill({0, 0, 60}, {16, 16, kGround}, dirt);
     fill({0, 4, 30}, {16, 9, 70}, world::kAir);
-    fill({12, 0, 96}, {16, 16, 98}, world::kAir);
+    fill({12, 0, 90}, {16, 3, 98}, world::kAir);
+    fill({12, 0, 98}, {13, 3, kGround}, world::kAir);
     fill({4, 12, 20}, {12, 15, 25}, world::kAir);
-    const auto chunk = std::make_shared<const world::Chunk>(land);
-    EXPECT_EQ(closeCaves(chunk, 0, contentBlocks()), chunk);
-    const std::uint8_t kAlongY = 1 << 2 | 1 << 3;
-    EXPECT_EQ(closeCaves(chunk, kAlongY, contentBlocks()), chunk) << "no cave leads there";
-    const world::ChunkPtr closed = closeCaves(chunk, 1 << 1, contentBlocks());
+    ChunkNeighborhood around;
+    around.meshed[0] = around.chunks[4] = std::make_shared<const world::Chunk>(land);
+    const light::ChunkLightPtr light = lightOf(around, light::LightTable(contentBlocks()));
+    const auto closedAt = [&](SideSet sides) {
+        around.openSides = sides;
+        return closeCaves(around, *light, contentBlocks())[0];
+    };
+    EXPECT_EQ(closedAt(0), around.meshed[0]);
+    EXPECT_EQ(closedAt(1 << 2 | 1 << 3), around.meshed[0]) << "no dark cave leads there";
+    const world::ChunkPtr closed = closedAt(1 << 1);
     for (int z = 0; z < 256; ++z) {
         for (int y = 0; y < 16; ++y) {
             for (int x = 0; x < 16; ++x) {
                 const world::BlockIndex index = world::blockIndex(x, y, z);
                 const bool isClosed = x == 15 && y >= 4 && y < 9 && z >= 30 && z < 70;
-                ASSERT_EQ(closed->block(index), isClosed ? dirt : chunk->block(index))
+                ASSERT_EQ(closed->block(index), isClosed ? dirt : land.block(index))
                     << x << ',' << y << ',' << z;
             }
         }
@@ -73,7 +79,6 @@ class TileBordersTest : public PipelineTest {
     // The expected mesh of a chunk that borders on tiles.
     mesh::ChunkMesh expected(const TileView& view, ChunkPos pos) const {
         mesh::MeshBlocks blocks = meshBlocksOf(chunksAround(world_, pos));
-        blocks[0] = closeCaves(blocks[0], openSides(view, pos), contentBlocks());
         for (std::size_t side = 0; side < 4; ++side) {
             if ((openSides(view, pos) >> side & 1) != 0)
                 blocks[1 + side] = borderChunk(contentBlocks(), world_.heights());
