@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 
 namespace terrane::path {
 namespace {
@@ -20,6 +21,17 @@ glm::dvec3 middleOf(glm::ivec3 key, int bits) {
 }
 float halfSquared(int bits) {
     return static_cast<float>(1 << 2 * (bits - 1));
+}
+
+// Power of a face for light at a point: none if it shows its back.
+float powerAt(const Emitter& emitter, const glm::dvec3& point) {
+    const bool isFront = glm::dot(glm::dvec3(emitter.normal), point - emitter.corner) > 0;
+    return isFront || emitter.isTwoSided ? emitter.power : 0;
+}
+float powerAt(std::span<const Emitter> group, const glm::dvec3& point) {
+    float sum = 0;
+    for (const Emitter& emitter : group) sum += powerAt(emitter, point);
+    return sum;
 }
 
 bool comesBefore(glm::ivec3 a, glm::ivec3 b) {
@@ -146,7 +158,15 @@ std::optional<EmitterTable::Choice> EmitterTable::choose(const glm::dvec3& point
             if (left < 0) break;
         }
         const Span& group = groups_[groups.first + n];
-        chosen = pick(group.first, group.count, random.next());
+        const std::span<const Emitter> faces(&emitters_[group.first], group.count);
+        left = random.next() * powerAt(faces, point);
+        for (const Emitter& face : faces) {
+            const float power = powerAt(face, point);
+            if (power > 0) chosen = &face;
+            left -= power;
+            if (chosen != nullptr && left < 0) break;
+        }
+        if (chosen == nullptr) return std::nullopt;
     }
     return Choice{chosen, chanceOf(*chosen, point)};
 }
@@ -160,8 +180,11 @@ float EmitterTable::chanceOf(const Emitter& emitter, const glm::dvec3& point) co
     if (std::max({away.x, away.y, away.z}) <= 1) {
         const Span& groups = cells_[byPlace_.at(key)].groups;
         const Span& group = groups_[groupOf_[static_cast<std::size_t>(&emitter - emitters_.data())]];
-        near = groups.weight(point) / nearWeight(*around, point) * group.weight(point) /
-               groupWeight(groups, point) * emitter.power / group.power;
+        const float power = powerAt(emitter, point);
+        if (power > 0)
+            near = groups.weight(point) / nearWeight(*around, point) * group.weight(point) /
+                   groupWeight(groups, point) * power /
+                   powerAt(std::span(&emitters_[group.first], group.count), point);
     }
     return kShareOfAll * ofAll + (1 - kShareOfAll) * near;
 }
