@@ -127,13 +127,11 @@ float EmitterTable::groupWeight(const Span& groups, const glm::dvec3& point) con
     return sum;
 }
 
-// Among faces that follow each other, by their power.
-const Emitter* EmitterTable::pick(std::uint32_t first, std::uint32_t count, float random) const {
-    const double before = first > 0 ? cumulative_[first - 1] : 0;
-    const double at = before + double{random} * (cumulative_[first + count - 1] - before);
-    const auto begin = cumulative_.begin();
-    const auto found = std::upper_bound(begin + first, begin + first + count, at) - begin;
-    return &emitters_[std::min(static_cast<std::uint32_t>(found), first + count - 1)];
+// Any face, by power.
+const Emitter* EmitterTable::pick(float random) const {
+    const double at = double{random} * cumulative_.back();
+    const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), at) - cumulative_.begin();
+    return &emitters_[std::min(static_cast<std::size_t>(found), emitters_.size() - 1)];
 }
 
 std::optional<EmitterTable::Choice> EmitterTable::choose(const glm::dvec3& point, Random& random) const {
@@ -142,7 +140,7 @@ std::optional<EmitterTable::Choice> EmitterTable::choose(const glm::dvec3& point
     if (around == nullptr && random.next() >= kChanceFar) return std::nullopt;
     const Emitter* chosen = nullptr;
     if (around == nullptr || random.next() < kShareOfAll) {
-        chosen = pick(0, static_cast<std::uint32_t>(emitters_.size()), random.next());
+        chosen = pick(random.next());
     } else {
         float left = random.next() * nearWeight(*around, point);
         int k = 0;
