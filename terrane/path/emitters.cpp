@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 
 namespace terrane::path {
 namespace {
@@ -20,6 +21,17 @@ glm::dvec3 middleOf(glm::ivec3 key, int bits) {
 }
 float halfSquared(int bits) {
     return static_cast<float>(1 << 2 * (bits - 1));
+}
+
+// Power of a face for light at a point: none if it shows its back.
+float powerAt(const Emitter& emitter, const glm::dvec3& point) {
+    const bool isFront = glm::dot(glm::dvec3(emitter.normal), point - emitter.corner) > 0;
+    return isFront || emitter.isTwoSided ? emitter.power : 0;
+}
+float powerAt(std::span<const Emitter> group, const glm::dvec3& point) {
+    float sum = 0;
+    for (const Emitter& emitter : group) sum += powerAt(emitter, point);
+    return sum;
 }
 
 bool comesBefore(glm::ivec3 a, glm::ivec3 b) {
@@ -115,13 +127,11 @@ float EmitterTable::groupWeight(const Span& groups, const glm::dvec3& point) con
     return sum;
 }
 
-// Among faces that follow each other, by their power.
-const Emitter* EmitterTable::pick(std::uint32_t first, std::uint32_t count, float random) const {
-    const double before = first > 0 ? cumulative_[first - 1] : 0;
-    const double at = before + double{random} * (cumulative_[first + count - 1] - before);
-    const auto begin = cumulative_.begin();
-    const auto found = std::upper_bound(begin + first, begin + first + count, at) - begin;
-    return &emitters_[std::min(static_cast<std::uint32_t>(found), first + count - 1)];
+// Any face, by power.
+const Emitter* EmitterTable::pick(float random) const {
+    const double at = double{random} * cumulative_.back();
+    const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), at) - cumulative_.begin();
+    return &emitters_[std::min(static_cast<std::size_t>(found), emitters_.size() - 1)];
 }
 
 std::optional<EmitterTable::Choice> EmitterTable::choose(const glm::dvec3& point, Random& random) const {
@@ -130,7 +140,7 @@ std::optional<EmitterTable::Choice> EmitterTable::choose(const glm::dvec3& point
     if (around == nullptr && random.next() >= kChanceFar) return std::nullopt;
     const Emitter* chosen = nullptr;
     if (around == nullptr || random.next() < kShareOfAll) {
-        chosen = pick(0, static_cast<std::uint32_t>(emitters_.size()), random.next());
+        chosen = pick(random.next());
     } else {
         float left = random.next() * nearWeight(*around, point);
         int k = 0;
@@ -146,7 +156,15 @@ std::optional<EmitterTable::Choice> EmitterTable::choose(const glm::dvec3& point
             if (left < 0) break;
         }
         const Span& group = groups_[groups.first + n];
-        chosen = pick(group.first, group.count, random.next());
+        const std::span<const Emitter> faces(&emitters_[group.first], group.count);
+        left = random.next() * powerAt(faces, point);
+        for (const Emitter& face : faces) {
+            const float power = powerAt(face, point);
+            if (power > 0) chosen = &face;
+            left -= power;
+            if (chosen != nullptr && left < 0) break;
+        }
+        if (chosen == nullptr) return std::nullopt;
     }
     return Choice{chosen, chanceOf(*chosen, point)};
 }
@@ -160,8 +178,11 @@ float EmitterTable::chanceOf(const Emitter& emitter, const glm::dvec3& point) co
     if (std::max({away.x, away.y, away.z}) <= 1) {
         const Span& groups = cells_[byPlace_.at(key)].groups;
         const Span& group = groups_[groupOf_[static_cast<std::size_t>(&emitter - emitters_.data())]];
-        near = groups.weight(point) / nearWeight(*around, point) * group.weight(point) /
-               groupWeight(groups, point) * emitter.power / group.power;
+        const float power = powerAt(emitter, point);
+        if (power > 0)
+            near = groups.weight(point) / nearWeight(*around, point) * group.weight(point) /
+                   groupWeight(groups, point) * power /
+                   powerAt(std::span(&emitters_[group.first], group.count), point);
     }
     return kShareOfAll * ofAll + (1 - kShareOfAll) * near;
 }

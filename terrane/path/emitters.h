@@ -76,7 +76,7 @@ class EmitterTable {
     const Cell* cellAt(const glm::dvec3& point) const;
     float nearWeight(const Cell& around, const glm::dvec3& point) const;
     float groupWeight(const Span& groups, const glm::dvec3& point) const;
-    const Emitter* pick(std::uint32_t first, std::uint32_t count, float random) const;
+    const Emitter* pick(float random) const;
 
     std::vector<Emitter> emitters_;       // by cell, then by group
     std::vector<std::uint32_t> groupOf_;  // by face

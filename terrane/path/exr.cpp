@@ -38,12 +38,12 @@ class MemoryStream : public Imf::OStream {
 
 struct Channel {
     const char* name;
-    const float* first;
+    float* first;
     std::size_t stride;  // floats
 };
 
-std::vector<Channel> channelsOf(const Means& means) {
-    const auto part = [](const std::vector<glm::vec3>& colors, int c) { return &colors.front()[c]; };
+std::vector<Channel> channelsOf(Means& means) {
+    const auto part = [](std::vector<glm::vec3>& colors, int c) { return &colors.front()[c]; };
     return {{"R", part(means.radiance, 0), 3},      {"G", part(means.radiance, 1), 3},
             {"B", part(means.radiance, 2), 3},      {"albedo.R", part(means.albedo, 0), 3},
             {"albedo.G", part(means.albedo, 1), 3}, {"albedo.B", part(means.albedo, 2), 3},
@@ -52,7 +52,8 @@ std::vector<Channel> channelsOf(const Means& means) {
             {"variance", means.variance.data(), 1}};
 }
 
-void encode(MemoryStream& stream, const Means& means, const ExrNotes& notes) {
+// `means`: a copy, because slices are of memory that may be written.
+void encode(MemoryStream& stream, Means means, const ExrNotes& notes) {
     Imf::Header header(means.size.x, means.size.y);
     header.insert("samples", Imf::IntAttribute(static_cast<int>(notes.samples)));
     if (notes.isDenoised) header.insert("comments", Imf::StringAttribute("denoised: biased"));
@@ -60,8 +61,7 @@ void encode(MemoryStream& stream, const Means& means, const ExrNotes& notes) {
     for (const Channel& channel : channelsOf(means)) {
         header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
         const std::size_t x = channel.stride * sizeof(float);
-        // It only reads from the slice.
-        auto* base = const_cast<char*>(reinterpret_cast<const char*>(channel.first));
+        auto* base = reinterpret_cast<char*>(channel.first);
         buffer.insert(channel.name,
                       Imf::Slice(Imf::FLOAT, base, x, x * static_cast<std::size_t>(means.size.x)));
     }

@@ -26,7 +26,7 @@ constexpr glm::vec3 kWaterLoss{0.34f, 0.19f, 0.165f}, kWaterScattered{0.06f, 0.3
 constexpr float kWaterMeanLoss = 0.2f;  // for the place of scattering
 // Of the part of glass that its texture covers, so much of the light is scattered, the rest takes the
 // texture's color and passes.
-constexpr float kGlassScattered = 0.5f;
+constexpr float kGlassScattered = 0.25f;
 constexpr float kLeastRoulette = 0.05f;
 
 // Reflectance of a smooth surface for light that comes from the thinner side (A.-J. Fresnel). Water has the
