@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "terrane/gen/language/builder.h"
-#include "terrane/lua/budget_internal.h"
-#include "terrane/lua/lua_internal.h"
+#include "terrane/lua/graph_limits_internal.h"
 #include "terrane/lua/object_internal.h"
-#include "terrane/lua/script.h"
+#include "terrane/lua/sandbox.h"
 
 namespace terrane::lua {
 
@@ -48,13 +47,11 @@ struct Variable {
     std::function<void(gen::Value)> write;
 };
 
-struct Recording {
+struct Recording : Sandbox {
     Recording(gen::GeneratorBuilder& generator, BlockNames& names) : builder(generator), blocks(names) {}
 
     gen::GeneratorBuilder& builder;
     BlockNames& blocks;
-    Budget budget{Limits{}};
-    bool prints = true;  // whether print() writes to the log
 
     // The open pass. Null outside of the functions that scripts give to pass2D, pass3D and drainage.
     gen::Pass* pass = nullptr;
@@ -69,7 +66,6 @@ struct Recording {
     bool hasTrees = false;
     bool readsStep = false;     // so that levels may record different passes
     bool readsHeights = false;  // and worlds of different heights
-    int printedLines = 0;
 
     // Returns whether a value of the pass with this number can be used now.
     bool isOpenPass(std::uint32_t number) const { return pass != nullptr && number == passNumber; }
@@ -77,7 +73,7 @@ struct Recording {
 
 // Returns the recording of a state from makeState().
 inline Recording& recordingOf(lua_State* L) {
-    return **static_cast<Recording**>(lua_getextraspace(L));
+    return static_cast<Recording&>(sandboxOf(L));
 }
 
 }  // namespace terrane::lua
