@@ -210,6 +210,8 @@ struct ServerState {
     ServerBackup backup;
     std::vector<world::ChunkPos> liveChunks;  // where plants grow and liquids flow
     bool isStopping = false;
+    std::map<game::PackId, game::PlayerId> packPlayers = {};  // see packIdOf()
+    std::vector<game::Subscription> subscriptions = {};
 
     base::JobSystem jobs{1};  // for differences and passwords; destroyed first
 };
