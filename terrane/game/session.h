@@ -14,6 +14,7 @@
 
 #include "terrane/base/job_system.h"
 #include "terrane/game/build_command.h"
+#include "terrane/game/chat.h"
 #include "terrane/game/edit_command.h"
 #include "terrane/game/edit_history.h"
 #include "terrane/game/events.h"
@@ -102,6 +103,7 @@ class Session {
     DayClock clock;
     Permissions permissions;
     Events events;
+    std::vector<ChatCommand> chatCommands;
     std::vector<std::string> packs;  // names of those that change blocks; number 1 is the first
 
   private:

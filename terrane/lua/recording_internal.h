@@ -4,41 +4,18 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "terrane/gen/language/builder.h"
+#include "terrane/lua/block_names.h"
 #include "terrane/lua/graph_limits_internal.h"
 #include "terrane/lua/object_internal.h"
 #include "terrane/lua/sandbox.h"
 
 namespace terrane::lua {
-
-// Finds the blocks of a registry by the names that scripts use, and records the names that it found.
-class BlockNames {
-  public:
-    using Aliases = std::map<std::string, std::string, std::less<>>;
-
-    // `aliases` has names in the registry by the names in the script.
-    BlockNames(const world::BlockRegistry& blocks, std::string_view pack, Aliases aliases = {})
-        : blocks_(blocks), pack_(pack), aliases_(std::move(aliases)) {}
-
-    // Returns the registry's name of a block. A block of the pack comes first. Throws ScriptError if there is
-    // none.
-    std::string find(std::string_view name);
-    // Returns the registry's names from find() and addUsed() in the order of first use, without air.
-    const std::vector<std::string>& used() const { return used_; }
-    void addUsed(std::string_view name);
-
-  private:
-    const world::BlockRegistry& blocks_;
-    std::string pack_;
-    Aliases aliases_;
-    std::vector<std::string> used_;
-};
 
 // A gen::Var without its type.
 struct Variable {
