@@ -1,5 +1,5 @@
-// Lines that players type: chat, and commands that content packs or programs add. A server and the window of a
-// single player call it on the world's thread.
+// Lines that players type: chat, and commands that content packs or programs add. A server and the window of
+// a single player call it on the world's thread.
 #pragma once
 
 #include <functional>
@@ -22,11 +22,12 @@ struct ChatCommand {
     std::string owner = {};  // the pack that has it; empty: the program
 };
 
-// Tells listeners of a line of chat. Returns false if one of them refuses it; its reason was said to the player.
+// Tells listeners of a line of chat. Returns false if one of them refuses it; its reason was said to the
+// player.
 [[nodiscard]] bool mayChat(Session& session, PlayerId player, const std::string& text);
 
-// Runs a command of Session::chatCommands, "home set" without its slash. Its answer, or why it is refused, is said
-// to the player. Returns false if there is no such command.
+// Runs a command of Session::chatCommands, "home set" without its slash. Its answer, or why it is refused, is
+// said to the player. Returns false if there is no such command.
 bool runChatCommand(Session& session, PlayerId player, std::string_view line);
 
 // Returns a line "/home [set]: go to your home" for each command.

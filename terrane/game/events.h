@@ -1,8 +1,8 @@
-// Events of a session: what happens in a world, for any number of listeners in C++ and Lua. Listeners are called
-// in the order in which they were added, on the world's thread. An event whose name begins with Before comes
-// before its cause and may be refused, with a reason that the player reads; then the listeners after it are not
-// called. Listeners of such events change nothing. The other events tell what happened, and their listeners may
-// change the world.
+// Events of a session: what happens in a world, for any number of listeners in C++ and Lua. Listeners are
+// called in the order in which they were added, on the world's thread. An event whose name begins with Before
+// comes before its cause and may be refused, with a reason that the player reads; then the listeners after it
+// are not called. Listeners of such events change nothing. The other events tell what happened, and their
+// listeners may change the world.
 #pragma once
 
 #include <algorithm>

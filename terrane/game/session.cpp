@@ -330,7 +330,8 @@ void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
         edit(ticks);
         if (ticks_ % world::kTicksPerFlow == 0) flow(chunks);
         if (!events.randomTickBlocks.empty())
-            for (const world::BlockPos pos : world::blocksOfKinds(world_, events.randomTickBlocks, tick, chunks))
+            for (const world::BlockPos pos :
+                 world::blocksOfKinds(world_, events.randomTickBlocks, tick, chunks))
                 events.randomTick.notify({pos, world_.block(pos)});
         events.tick.notify({tick});
     }

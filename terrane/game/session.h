@@ -1,7 +1,7 @@
 // A world that is played: its chunks, the pipeline that loads, lights and meshes them, its store, its players
-// and its clock. Players change blocks by edit(), build() and undoOrRedo(); the changes go to the pipeline, and
-// so to the screen and the disk, and to the listeners of `events`. Uses no OpenGL. It is used on one thread,
-// the world's.
+// and its clock. Players change blocks by edit(), build() and undoOrRedo(); the changes go to the pipeline,
+// and so to the screen and the disk, and to the listeners of `events`. Uses no OpenGL. It is used on one
+// thread, the world's.
 #pragma once
 
 #include <functional>

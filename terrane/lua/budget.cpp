@@ -16,7 +16,7 @@ constexpr std::int64_t kBytesOfStep = 64;            // written in the time of a
 // Lua collects all garbage where memory is refused, and asks again. 64 MiB count as all steps of a script, so
 // that steps and not the clock end one that lives at its limit.
 constexpr std::int64_t kCollectedBytesOfStep = 16;
-constexpr int kLevelsOfPlace = 4;  // a function of C++ calls no deeper
+constexpr int kLevelsOfPlace = 4;           // a function of C++ calls no deeper
 constexpr std::size_t kTextHeadBytes = 32;  // Lua's header of a text, 24 bytes, and the zero behind it
 
 // Sanitizers make everything slower, which is not the script's fault.

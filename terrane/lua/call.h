@@ -87,8 +87,7 @@ template <class C>
 int enter(lua_State* L) {
     return callGuarded(L, [](lua_State* state) {
         C c(state);
-        const auto& function =
-            *static_cast<const FunctionOf<C>*>(lua_touserdata(state, lua_upvalueindex(1)));
+        const auto& function = *static_cast<const FunctionOf<C>*>(lua_touserdata(state, lua_upvalueindex(1)));
         c.function = function.name;
         c.charge(kStepsOfCall);
         c.begin();

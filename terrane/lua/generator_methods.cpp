@@ -277,9 +277,9 @@ int trees(GraphCall& c) {
     return 1;
 }
 
-constexpr GraphFunction kGeneratorMethods[] = {{"field", field},     {"pass2D", pass2D}, {"pass3D", pass3D},
-                                          {"heights", heights}, {"tint", tint},     {"drainage", drainage},
-                                          {"shape", shape},     {"trees", trees}};
+constexpr GraphFunction kGeneratorMethods[] = {
+    {"field", field}, {"pass2D", pass2D},     {"pass3D", pass3D}, {"heights", heights},
+    {"tint", tint},   {"drainage", drainage}, {"shape", shape},   {"trees", trees}};
 
 }  // namespace
 

@@ -201,8 +201,7 @@ void makeObjectTypes(lua_State* L) {
         luaL_newmetatable(L, type.name);
         makeType(L, type.index, type.newIndex);
         // Operators on these objects fail with advice.
-        if (&type.index == &kIndexVariable || &type.index == &kIndexNothing)
-            addFunctions(L, operators());
+        if (&type.index == &kIndexVariable || &type.index == &kIndexNothing) addFunctions(L, operators());
         lua_pop(L, 1);
     }
     makeLiteralTypes(L);

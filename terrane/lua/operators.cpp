@@ -168,7 +168,7 @@ constexpr GraphFunction kOperators[] = {
     {"__eq", refuseEqual},   {"__concat", refuseJoin}, {"__len", refuseLength}, {"__call", refuseCall}};
 
 constexpr GraphFunction kComparisons[] = {{"lt", less},         {"le", lessEqual}, {"gt", greater},
-                                     {"ge", greaterEqual}, {"eq", equal},     {"ne", notEqual}};
+                                          {"ge", greaterEqual}, {"eq", equal},     {"ne", notEqual}};
 
 }  // namespace
 

@@ -176,21 +176,21 @@ int while_(GraphCall& c) {
 }
 
 constexpr GraphFunction kPassMethods[] = {{"read", read},
-                                     {"readAt", readAt},
-                                     {"slope", slope},
-                                     {"lowestBeside", lowestBeside},
-                                     {"readBetween", readBetween},
-                                     {"set", set},
-                                     {"setAt", setAt},
-                                     {"block", block},
-                                     {"blockHere", blockHere},
-                                     {"blockInColumn", blockInColumn},
-                                     {"blockAt", blockAt},
-                                     {"setBlock", setBlock},
-                                     {"stamp", stamp},
-                                     {"var", var},
-                                     {"if_", if_},
-                                     {"while_", while_}};
+                                          {"readAt", readAt},
+                                          {"slope", slope},
+                                          {"lowestBeside", lowestBeside},
+                                          {"readBetween", readBetween},
+                                          {"set", set},
+                                          {"setAt", setAt},
+                                          {"block", block},
+                                          {"blockHere", blockHere},
+                                          {"blockInColumn", blockInColumn},
+                                          {"blockAt", blockAt},
+                                          {"setBlock", setBlock},
+                                          {"stamp", stamp},
+                                          {"var", var},
+                                          {"if_", if_},
+                                          {"while_", while_}};
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-#include "terrane/lua/lua_headers.h"
 #include "terrane/lua/sandbox.h"
+#include "terrane/lua/lua_headers.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
-// A Lua state for scripts that nobody trusts: it has only the functions that it is given, limits of steps, time
-// and memory (budget.h), no files, no clock, no addresses, and errors of one line that name file and line.
-// Generators (script.h) and rules (terrane/rules) run in one. One thread uses a sandbox.
+// A Lua state for scripts that nobody trusts: it has only the functions that it is given, limits of steps,
+// time and memory (budget.h), no files, no clock, no addresses, and errors of one line that name file and
+// line. Generators (script.h) and rules (terrane/rules) run in one. One thread uses a sandbox.
 #pragma once
 
 #include <functional>

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "terrane/base/digest.h"
-#include "terrane/gen/compile/generator_graph.h"
 #include "terrane/base/log.h"
+#include "terrane/gen/compile/generator_graph.h"
 #include "terrane/lua/graph_call_internal.h"
 #include "terrane/lua/graph_limits_internal.h"
 #include "terrane/lua/state_internal.h"

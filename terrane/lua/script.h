@@ -3,8 +3,8 @@
 //
 // Used by code that opens a world whose generator is a script. Any thread: each call has a Lua state of its
 // own. Scripts are untrusted: they reach no files, no clock and no other script, and memory, steps, time and
-// the size of the recording are limited (graph_limits_internal.h). The same script gives the same graph on every
-// machine.
+// the size of the recording are limited (graph_limits_internal.h). The same script gives the same graph on
+// every machine.
 #pragma once
 
 #include <string>

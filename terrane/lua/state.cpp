@@ -24,8 +24,8 @@ std::vector<std::string> scriptFunctions() {
     Sandbox sandbox;
     const StatePtr state = openState(sandbox, addGeneratorGlobals);
     std::vector<std::string> names = globalsOf(state.get());
-    for (const char* member : {"Pass.x", "Pass.y", "Pass.z", "Pass.step", "Generator.step", "Generator.bottom",
-                               "Generator.top", "Variable.value"})
+    for (const char* member : {"Pass.x", "Pass.y", "Pass.z", "Pass.step", "Generator.step",
+                               "Generator.bottom", "Generator.top", "Variable.value"})
         names.emplace_back(member);
     const auto add = [&](const char* prefix, std::span<const GraphFunction> functions) {
         for (const GraphFunction& function : functions) names.push_back(std::string(prefix) + function.name);

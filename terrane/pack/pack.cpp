@@ -21,8 +21,8 @@ constexpr int kFormat = 1;
 constexpr std::size_t kMaxInfoText = 1024;  // bytes
 constexpr std::size_t kMaxListed = 64;      // authors, required packs
 
-constexpr std::array<std::string_view, 9> kInfoKeys{
-    "format", "name", "version", "title", "description", "license", "authors", "requires", "rules"};
+constexpr std::array<std::string_view, 9> kInfoKeys{"format",  "name",    "version",  "title", "description",
+                                                    "license", "authors", "requires", "rules"};
 
 // The name of a file without folder and ending; empty if the path is another kind of file.
 std::string_view nameIn(std::string_view path, std::string_view folder, std::string_view ending) {
@@ -85,8 +85,9 @@ base::Result<PackInfo> readInfo(const toml::table& root, std::string_view file) 
     if (const toml::node* rules = table.node("rules")) {
         info.rules = static_cast<int>(rules->value_exact<std::int64_t>().value_or(0));
         if (info.rules != kRulesVersion)
-            table.expected(*rules, "rules",
-                           fmt::format("{}, the version of this program's interface for rules", kRulesVersion));
+            table.expected(
+                *rules, "rules",
+                fmt::format("{}, the version of this program's interface for rules", kRulesVersion));
     }
     if (error) return base::fail(base::ErrorCode::BadInput, "{}", base::inOneLine(*error));
     return info;

@@ -18,7 +18,7 @@ struct KindName {
     bool hasBefore, hasBlock;
 };
 // By EventKind.
-constexpr KindName kKinds[] = {{"join", false, false},  {"leave", false, false}, {"chat", true, false},
+constexpr KindName kKinds[] = {{"join", false, false},   {"leave", false, false}, {"chat", true, false},
                                {"command", true, false}, {"place", true, true},   {"break", true, true},
                                {"use", true, true},      {"build", true, false},  {"claim", false, false},
                                {"tick", false, false},   {"random", false, true}};
@@ -37,7 +37,8 @@ int addHandler(RuleCall& c, bool isBefore) {
     Handler handler{kindAt(c), isBefore};
     const KindName& kind = kKinds[static_cast<std::size_t>(handler.kind)];
     if (isBefore && !kind.hasBefore) lua::fail("before: the event \"{}\" has none: use events.on", kind.name);
-    if (c.pack.handlers.size() >= kMaxHandlers) lua::fail("{}: more than {} handlers", c.function, kMaxHandlers);
+    if (c.pack.handlers.size() >= kMaxHandlers)
+        lua::fail("{}: more than {} handlers", c.function, kMaxHandlers);
     c.function_(2);
     if (kind.hasBlock && !c.isMissing(3)) handler.block = c.block(3);
     if (handler.kind == EventKind::Tick && !c.isMissing(3)) handler.every = c.integer(3, 1, 1'000'000);
@@ -114,7 +115,8 @@ int random(RuleCall& c) {
     return 1;
 }
 
-constexpr RuleFunction kGlobals[] = {{"after", after}, {"every", every}, {"cancel", cancel}, {"random", random}};
+constexpr RuleFunction kGlobals[] = {
+    {"after", after}, {"every", every}, {"cancel", cancel}, {"random", random}};
 
 using PushFields = std::function<void(lua_State*)>;
 
@@ -226,7 +228,8 @@ void beginTick(PackRules& pack) {
     if (pack.host.tick % kTicksOfPrints == 0) pack.printsLeft = 20;
     // With the time of day, so that sessions of a world differ.
     const auto time = std::bit_cast<std::uint64_t>(pack.host.session.clock.timeDay);
-    pack.randomState = base::hash64(fmt::format("{} {} {} {}", identity.seed, pack.name, pack.host.tick, time));
+    pack.randomState =
+        base::hash64(fmt::format("{} {} {} {}", identity.seed, pack.name, pack.host.tick, time));
 }
 
 void runTimers(PackRules& pack) {
@@ -255,8 +258,7 @@ void runTick(RulesHost& host) {
         beginTick(*pack);
         runTimers(*pack);
     }
-    (void)tell(host, {EventKind::Tick}, false,
-               [&](lua_State* L) { setField(L, "tick", host.tick); });
+    (void)tell(host, {EventKind::Tick}, false, [&](lua_State* L) { setField(L, "tick", host.tick); });
 }
 
 void listen(RulesHost& host) {
@@ -266,6 +268,10 @@ void listen(RulesHost& host) {
     };
     keep(events.joined.add([&host](const game::PlayerJoined& event) {
         host.players[event.player] = event.name;
+        const bool isOperator = host.session.permissions.roleOf(event.player) == game::Role::Operator;
+        if (isOperator || event.player == game::kLocalPlayer)
+            for (const std::string& problem : host.problems)
+                host.session.events.said.notify({event.player, problem});
         (void)tell(host, {EventKind::Join, event.player}, false,
                    [&](lua_State* L) { setPlayer(L, event.player); });
     }));
@@ -274,11 +280,13 @@ void listen(RulesHost& host) {
                    [&](lua_State* L) { setPlayer(L, event.player); });
         host.players.erase(event.player);
     }));
-    keep(events.beforeChat.add([&host](game::BeforeChat& event) { event.refusal = tellChat(host, event, true); }));
+    keep(events.beforeChat.add(
+        [&host](game::BeforeChat& event) { event.refusal = tellChat(host, event, true); }));
     keep(events.chat.add([&host](const game::ChatLine& event) { (void)tellChat(host, event, false); }));
     keep(events.beforeCommand.add(
         [&host](game::BeforeCommand& event) { event.refusal = tellCommand(host, event, true); }));
-    keep(events.command.add([&host](const game::CommandLine& event) { (void)tellCommand(host, event, false); }));
+    keep(events.command.add(
+        [&host](const game::CommandLine& event) { (void)tellCommand(host, event, false); }));
     keep(events.beforeBlock.add(
         [&host](game::BeforeBlockAction& event) { event.refusal = tellBlock(host, event, true); }));
     keep(events.block.add([&host](const game::BlockAction& event) { (void)tellBlock(host, event, false); }));

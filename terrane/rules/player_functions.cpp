@@ -34,10 +34,10 @@ int pushMember(RuleCall& c, game::PlayerId id, std::string_view key) {
     const auto& players = c.pack.host.players;
     const auto known = players.find(id);
     const world::Pose pose = c.session.poseOf(id).value_or(world::Pose{});
-    if (key == "name") return c.push(std::string_view(known == players.end() ? std::string() : known->second));
+    if (key == "name")
+        return c.push(std::string_view(known == players.end() ? std::string() : known->second));
     if (key == "pos") return c.push(pose.position);
-    if (key == "role")
-        return c.push(kRoles[static_cast<std::size_t>(c.session.permissions.roleOf(id))]);
+    if (key == "role") return c.push(kRoles[static_cast<std::size_t>(c.session.permissions.roleOf(id))]);
     if (key == "id") lua_pushinteger(c.L, id);
     if (key == "yaw") lua_pushnumber(c.L, static_cast<lua_Number>(pose.yaw));
     if (key == "pitch") lua_pushnumber(c.L, static_cast<lua_Number>(pose.pitch));
@@ -126,7 +126,8 @@ std::string runCommand(PackRules& pack, int function, game::PlayerId player, con
 
 int addCommand(RuleCall& c) {
     c.table(1);
-    game::ChatCommand command{textMember(c, "name"), textMember(c, "args"), textMember(c, "help"), {}, c.pack.name};
+    game::ChatCommand command{
+        textMember(c, "name"), textMember(c, "args"), textMember(c, "help"), {}, c.pack.name};
     if (!pack::isPackName(command.name))
         lua::fail("add: name: expected 1 to {} of a-z, 0-9 and _", pack::kMaxPackName);
     if (std::ranges::count(c.session.chatCommands, command.name, &game::ChatCommand::name) > 0)

@@ -41,7 +41,8 @@ void load(PackRules& rules, const pack::Pack& pack) {
          file != pack.files.end() && file->first.starts_with(pack::kScripts) && !rules.isSuspended; ++file) {
         rules.budget.refill();
         const std::string shown = rules.name + "/" + file->first;
-        if (const std::string reason = lua::runScript(rules.state.get(), {file->second, shown}); !reason.empty())
+        if (const std::string reason = lua::runScript(rules.state.get(), {file->second, shown});
+            !reason.empty())
             suspend(rules, reason);
     }
     rules.budget.refill();
@@ -66,7 +67,8 @@ std::optional<std::string> callFunction(PackRules& pack, int function, game::Pla
         return std::nullopt;
     }
     std::optional<std::string> answer;
-    if (lua_type(L, -1) == LUA_TSTRING) answer = std::string_view(lua_tostring(L, -1)).substr(0, kMaxSaidBytes);
+    if (lua_type(L, -1) == LUA_TSTRING)
+        answer = std::string_view(lua_tostring(L, -1)).substr(0, kMaxSaidBytes);
     lua_pop(L, 1);
     return answer;
 }
@@ -100,7 +102,8 @@ Rules::Rules(game::Session& session, const std::vector<pack::Pack>& packs)
 Rules::~Rules() {
     host_->subscriptions.clear();
     std::erase_if(host_->session.chatCommands, [&](const game::ChatCommand& command) {
-        return std::ranges::any_of(host_->packs, [&](const auto& pack) { return command.owner == pack->name; });
+        return std::ranges::any_of(host_->packs,
+                                   [&](const auto& pack) { return command.owner == pack->name; });
     });
 }
 
@@ -111,7 +114,8 @@ const std::vector<std::string>& Rules::problems() const {
 base::Result<void> checkScripts(const pack::Content& content) {
     auto generators = TERRANE_TRY(gen::makeLevelGenerators("flat", *content.blocks, 1));
     const store::WorldIdentity identity{.seed = 1, .generator = "flat", .generatorVersion = 1};
-    game::Session session({content.blocks, std::move(generators), std::make_unique<store::MemoryStore>(identity), 0});
+    game::Session session(
+        {content.blocks, std::move(generators), std::make_unique<store::MemoryStore>(identity), 0});
     const Rules rules(session, *content.packs);
     if (rules.problems().empty()) return {};
     return base::fail(base::ErrorCode::BadInput, "{}", rules.problems().front());

@@ -1,7 +1,8 @@
-// Rules of content packs: runs their scripts (scripts/NAME.lua, docs/scripting.md) for a session that decides,
-// that of a single player or of a server. Each pack has a sandbox of its own (terrane/lua/sandbox.h), whose
-// limits hold for a tick. A pack whose script fails is suspended: its handlers, timers and commands end, with one
-// line in the log and in the chat of operators; everything else goes on. On the world's thread.
+// Rules of content packs: runs their scripts (scripts/NAME.lua, docs/scripting.md) for a session that
+// decides, that of a single player or of a server. Each pack has a sandbox of its own
+// (terrane/lua/sandbox.h), whose limits hold for a tick. A pack whose script fails is suspended: its
+// handlers, timers and commands end, with one line in the log and in the chat of operators; everything else
+// goes on. On the world's thread.
 #pragma once
 
 #include <functional>
@@ -25,7 +26,8 @@ class Rules {
     Rules(const Rules&) = delete;
     Rules& operator=(const Rules&) = delete;
 
-    // Returns the reasons of suspended packs, "isles/scripts/gold.lua:3: …", in the order in which they failed.
+    // Returns the reasons of suspended packs, "isles/scripts/gold.lua:3: …", in the order in which they
+    // failed.
     const std::vector<std::string>& problems() const;
 
   private:

@@ -20,22 +20,34 @@
 
 namespace terrane::rules {
 
-// Limits of a pack for each tick of 50 ms: 5 ms of instructions. The clock ends only what steps do not measure.
+// Limits of a pack for each tick of 50 ms: 5 ms of instructions. The clock ends only what steps do not
+// measure.
 constexpr lua::Limits kLimits{.memoryBytes = std::size_t{16} << 20, .steps = 1'000'000};
-constexpr std::size_t kMaxHandlers = 1000;              // of a pack
-constexpr std::size_t kMaxTimers = 10'000;              // of a pack
-constexpr std::size_t kMaxCommands = 100;               // of a pack
+constexpr std::size_t kMaxHandlers = 1000;                 // of a pack
+constexpr std::size_t kMaxTimers = 10'000;                 // of a pack
+constexpr std::size_t kMaxCommands = 100;                  // of a pack
 constexpr std::size_t kMaxStorage = std::size_t{1} << 20;  // bytes of keys and values of a pack
 constexpr std::size_t kMaxKeyBytes = 64;
-constexpr std::size_t kMaxSaidBytes = 500;              // of a line of chat
-constexpr int kMaxSaidLines = 100;                      // of a pack in a tick
-constexpr std::int32_t kMaxFindRadius = 16;             // 33³ = 35,937 blocks
+constexpr std::size_t kMaxSaidBytes = 500;   // of a line of chat
+constexpr int kMaxSaidLines = 100;           // of a pack in a tick
+constexpr std::int32_t kMaxFindRadius = 16;  // 33³ = 35,937 blocks
 constexpr std::int64_t kMaxFillBlocks = 32'768;
 constexpr double kMaxRayBlocks = 64;
 
 // The events that scripts hear: all of game::Events that are no matter of screens and disks.
 enum class EventKind : std::uint8_t {
-    Join, Leave, Chat, Command, Place, Break, Use, Build, Claim, Tick, Random, Count
+    Join,
+    Leave,
+    Chat,
+    Command,
+    Place,
+    Break,
+    Use,
+    Build,
+    Claim,
+    Tick,
+    Random,
+    Count
 };
 
 // A function of a script, by its number in the registry of its state.
@@ -57,8 +69,13 @@ struct Timer {
 
 // The rules of one pack.
 struct PackRules : lua::Sandbox {
-    PackRules(RulesHost& rulesHost, std::string packName, game::PackId packId, const world::BlockRegistry& blocks)
-        : Sandbox(kLimits), host(rulesHost), name(std::move(packName)), id(packId), blockNames(blocks, name) {}
+    PackRules(RulesHost& rulesHost, std::string packName, game::PackId packId,
+              const world::BlockRegistry& blocks)
+        : Sandbox(kLimits),
+          host(rulesHost),
+          name(std::move(packName)),
+          id(packId),
+          blockNames(blocks, name) {}
 
     RulesHost& host;
     std::string name;
@@ -70,11 +87,11 @@ struct PackRules : lua::Sandbox {
     std::size_t commands = 0;
     std::map<std::string, std::string> unsaved = {};  // storage: names of settings and their texts
     std::uint64_t randomState = 0;
-    int linesSaid = 0;             // in this tick
+    int linesSaid = 0;  // in this tick
     bool isSuspended = false;
-    bool isDeciding = false;       // a handler of an event before its cause runs: it changes nothing
+    bool isDeciding = false;  // a handler of an event before its cause runs: it changes nothing
     game::PlayerId actor = game::kNoPlayer;  // whose event runs
-    lua::StatePtr state = nullptr;  // destroyed first
+    lua::StatePtr state = nullptr;           // destroyed first
 };
 
 struct RulesHost {
@@ -107,16 +124,16 @@ class RuleCall : public lua::Call {
     game::Session& session;
 
     // Arguments.
-    world::BlockPos pos(int argument);      // a table {x, y, z}; rounds down
+    world::BlockPos pos(int argument);  // a table {x, y, z}; rounds down
     glm::dvec3 point(int argument);
-    world::BlockId block(int argument);     // by name
-    std::uint16_t state(int argument);      // 0 if it is missing
+    world::BlockId block(int argument);  // by name
+    std::uint16_t state(int argument);   // 0 if it is missing
     double real(int argument, double least, double most) const;
     game::PlayerId player(int argument) const;
-    std::string line(int argument) const;   // one line of chat
+    std::string line(int argument) const;  // one line of chat
     // Fails in a handler of an event before its cause.
     void requireChange() const;
-    int keep(int argument);                 // a function, for Handler::function
+    int keep(int argument);  // a function, for Handler::function
 
     // Results. Each returns 1.
     int push(std::string_view text);

@@ -156,7 +156,7 @@ int light(RuleCall& c) {
 int biome(RuleCall& c) {
     const world::BlockPos pos = c.pos(1);
     RulesHost& host = c.pack.host;
-    c.charge(20'000);  // 0.1 ms where the chunk is another than at the last call
+    c.charge(20'000);               // 0.1 ms where the chunk is another than at the last call
     c.sandbox.budget.pauseClock();  // the first one takes a tenth of a second
     if (!std::exchange(host.hasBiomes, true)) {
         const store::WorldIdentity& identity = c.session.store().identity();
@@ -211,11 +211,10 @@ int top(RuleCall& c) {
     return 1;
 }
 
-constexpr RuleFunction kWorld[] = {{"block", block}, {"state", state},       {"set", setBlock},
-                                   {"fill", fill},   {"setState", setState}, {"find", findBlock},
-                                   {"ray", ray},     {"light", light},       {"biome", biome},
-                                   {"time", time},   {"setTime", setTime},   {"height", height},
-                                   {"seed", seed},   {"bottom", bottom},     {"top", top}};
+constexpr RuleFunction kWorld[] = {
+    {"block", block},     {"state", state},   {"set", setBlock}, {"fill", fill},     {"setState", setState},
+    {"find", findBlock},  {"ray", ray},       {"light", light},  {"biome", biome},   {"time", time},
+    {"setTime", setTime}, {"height", height}, {"seed", seed},    {"bottom", bottom}, {"top", top}};
 constexpr RuleFunction kPos = {"pos", makePos};
 
 }  // namespace

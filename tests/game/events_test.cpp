@@ -161,9 +161,9 @@ TEST_F(EventsTest, TicksAndRandomTicksComeWithTime) {
 TEST_F(EventsTest, CommandsAnswerAndCanBeRefused) {
     std::vector<std::string> ran;
     session_.chatCommands.push_back({"greet", "NAME", "greets", [&](PlayerId, const std::string& arguments) {
-                                     ran.push_back(arguments);
-                                     return "hello " + arguments;
-                                 }});
+                                         ran.push_back(arguments);
+                                         return "hello " + arguments;
+                                     }});
     EXPECT_TRUE(runChatCommand(session_, kLocalPlayer, "greet  the world"));
     EXPECT_TRUE(runChatCommand(session_, kLocalPlayer, "greet"));
     EXPECT_FALSE(runChatCommand(session_, kLocalPlayer, "gree"));

@@ -30,9 +30,27 @@ TEST(StoredValue, OtherTextsAreRefused) {
     const std::string text = textOf(sample());
     for (std::size_t size = 0; size < text.size(); ++size)
         EXPECT_FALSE(decodeStored(text.substr(0, size))) << size;
-    for (const char* wrong : {"", "x", "tt", "i;", "i1", "i1.5;", "i99999999999999999999;", "dinf;", "dnan;", "d;",
-                              "s5:abc;", "s1:%;", "s3:%zz;", "s2:%4;", "s-1:;", "s99999999999999999999:a;", "{t}",
-                              "{{}t}", "{", "}", " t"})
+    for (const char* wrong : {"",
+                              "x",
+                              "tt",
+                              "i;",
+                              "i1",
+                              "i1.5;",
+                              "i99999999999999999999;",
+                              "dinf;",
+                              "dnan;",
+                              "d;",
+                              "s5:abc;",
+                              "s1:%;",
+                              "s3:%zz;",
+                              "s2:%4;",
+                              "s-1:;",
+                              "s99999999999999999999:a;",
+                              "{t}",
+                              "{{}t}",
+                              "{",
+                              "}",
+                              " t"})
         EXPECT_FALSE(decodeStored(wrong)) << wrong;
 }
 

@@ -199,7 +199,8 @@ std::string authorOf(const History& history, const LoggedEdit& edit) {
         const auto found = history.names.find(player);
         return found == history.names.end() ? fmt::format("player {}", player) : found->second;
     };
-    if (edit.pack == game::kNoPlayer) return edit.player == game::kNoPlayer ? "the server" : nameOf(edit.player);
+    if (edit.pack == game::kNoPlayer)
+        return edit.player == game::kNoPlayer ? "the server" : nameOf(edit.player);
     if (edit.player == game::kNoPlayer) return nameOf(edit.pack);
     return fmt::format("{} for {}", nameOf(edit.pack), nameOf(edit.player));
 }

@@ -27,7 +27,8 @@ struct LoggedEdit {
     game::PlayerId player = game::kNoPlayer;
     world::ChunkPos chunk;
     ChunkDifference before, after;  // the same block indices
-    game::PlayerId pack = game::kNoPlayer;  // the number of a pack among the players, if its rules changed them
+    game::PlayerId pack =
+        game::kNoPlayer;  // the number of a pack among the players, if its rules changed them
 };
 // The number that the history stores for the player and the pack.
 std::int64_t authorNumber(const LoggedEdit& edit);
@@ -44,7 +45,7 @@ std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::Author author, std
 
 // Selects edits. A field without a value does not restrict the selection.
 struct EditFilter {
-    std::optional<game::PlayerId> player = {};        // or a pack
+    std::optional<game::PlayerId> player = {};  // or a pack
     std::optional<game::ColumnArea> area = {};  // contains at least one block of the edit
     std::optional<std::int64_t> beforeMs = {};  // its time is earlier
     std::int64_t afterNumber = 0;

@@ -32,7 +32,9 @@ bool hasState(const world::Chunk& chunk) {
 // Time passes in edited chunks near players; generated blocks are at rest. These chunks and their neighbors,
 // into which liquids may flow, stay loaded.
 std::vector<world::ChunkPos> findLiveChunks(const ServerClients& clients, const EditedChunks& edited,
-                                            stream::ChunkPipeline& pipeline) {
+                                            game::Session& session) {
+    stream::ChunkPipeline& pipeline = session.pipeline();
+    const bool hasRandomTicks = !session.events.randomTickBlocks.empty();
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> near;
     forEachPlaying(clients, [&](const ServerClient& client) {
         const world::ChunkPos own = world::chunkOf(poseOf(client.pose).position);
@@ -41,7 +43,7 @@ std::vector<world::ChunkPos> findLiveChunks(const ServerClients& clients, const 
     std::vector<world::ChunkPos> live;
     for (const world::ChunkPos pos : near) {
         const world::ChunkPtr chunk = pipeline.maybeLoadChunkAt(pos);
-        if (!chunk || !hasState(*chunk)) continue;
+        if (!chunk || (!hasRandomTicks && !hasState(*chunk))) continue;
         live.push_back(pos);
         for (const world::ChunkPos beside : world::chunksWithin(pos, 1))
             if (world::isInWorld(beside)) (void)pipeline.maybeLoadChunkAt(beside);
@@ -117,8 +119,8 @@ base::Result<void> checkWorldOf(ServerRecords& records, const store::WorldIdenti
 
 namespace {
 
-// The number of a pack of the session among the known players, whom the history names. kNoPlayer if there is no
-// new number now.
+// The number of a pack of the session among the known players, whom the history names. kNoPlayer if there is
+// no new number now.
 game::PlayerId packIdOf(ServerState& server, game::PackId pack) {
     if (pack == game::kNoPack) return game::kNoPlayer;
     game::PlayerId& known = server.packPlayers[pack];
@@ -231,7 +233,7 @@ void tick(ServerState& server, Time now) {
     runCommands(clients, session, history);
     continueRollbacks(history, sharing, session, server.clients.now);
     if (clients.tick % kTicksPerLiveChunks == 1) {
-        server.liveChunks = findLiveChunks(clients, edits.chunks, session.pipeline());
+        server.liveChunks = findLiveChunks(clients, edits.chunks, session);
         if (sharing.shared) requestRegions(*sharing.shared, server.liveChunks);
     }
     session.advance(std::chrono::duration<double>(kServerTick).count(),

@@ -257,9 +257,7 @@ constexpr ConsoleCommand kCommands[] = {
     {"claim", "NAME X0 Y0 X1 Y1 OWNER [MEMBER…]", "columns where only these players build", 6, kAny,
      [](Server& s, Words w, CommandFrom) { return claim(s.clients.known, s.session, w); }},
     {"unclaim", "NAME", "ends a claim", 1, 1,
-     [](Server& s, Words w, CommandFrom) {
-         return unclaim(s.clients.known, s.session, w);
-     }},
+     [](Server& s, Words w, CommandFrom) { return unclaim(s.clients.known, s.session, w); }},
     {"claims", "", "all claims", 0, 0,
      [](Server& s, Words, CommandFrom) { return claimList(s.clients.known); }},
     {"rollback", "PLAYER|* MINUTES [X0 Y0 X1 Y1]", "reverts the edits of a player, or of all with *", 2, 6,

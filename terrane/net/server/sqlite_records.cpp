@@ -23,8 +23,9 @@ std::string queryOf(const EditFilter& filter, EditOrder order) {
                                   filter.afterNumber);
     // The upper half of the number is a pack's (game::numberOf()).
     if (filter.player)
-        sql += fmt::format(" AND (player = {0} OR player > {1} AND (player & {1} = {0} OR player >> 32 = {0}))",
-                           *filter.player, 0xFFFFFFFFu);
+        sql +=
+            fmt::format(" AND (player = {0} OR player > {1} AND (player & {1} = {0} OR player >> 32 = {0}))",
+                        *filter.player, 0xFFFFFFFFu);
     if (filter.beforeMs) sql += fmt::format(" AND time < {}", *filter.beforeMs);
     if (filter.area) {
         const KeyRange keys = chunkKeys(*filter.area);

@@ -232,7 +232,8 @@ void updateSharing(SharingState& sharing, const ServerClients& clients, ServerPl
 std::int64_t beginSharedSave(SharingState& sharing, game::Session& session) {
     ++sharing.savesBegun;
     session.queueSaves();
-    std::erase_if(sharing.firstUnsaved, [&](const auto& entry) { return !session.pipeline().isUnsaved(entry.first); });
+    std::erase_if(sharing.firstUnsaved,
+                  [&](const auto& entry) { return !session.pipeline().isUnsaved(entry.first); });
     std::int64_t upTo = sharing.newest;
     for (const auto& [chunk, number] : sharing.firstUnsaved) upTo = std::min(upTo, number - 1);
     return upTo;
