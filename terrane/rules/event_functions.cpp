@@ -302,9 +302,7 @@ void listen(RulesHost& host) {
         });
     }));
     keep(events.saving.add([&host](const game::Saving&) {
-        for (const auto& pack : host.packs)
-            for (auto& [name, text] : std::exchange(pack->unsaved, {}))
-                host.session.store().setMetadata(name, std::move(text));
+        for (const auto& pack : host.packs) queueStorage(*pack);
     }));
 }
 

@@ -35,6 +35,7 @@ int callKept(lua_State* L) {
 // Runs the scripts of a pack, by name.
 void load(PackRules& rules, const pack::Pack& pack) {
     rules.print = [name = rules.name](std::string_view line) { base::logInfo("{}: {}", name, line); };
+    loadStorage(rules);
     rules.state = lua::openState(rules, addGlobals);
     if (!rules.state) return suspend(rules, rules.name + ": no memory to run its scripts");
     for (auto file = pack.files.lower_bound(pack::kScripts);

@@ -85,7 +85,9 @@ struct PackRules : lua::Sandbox {
     std::vector<Timer> timers = {};
     std::int64_t newestTimer = 0;
     std::size_t commands = 0;
-    std::map<std::string, std::string> unsaved = {};  // storage: names of settings and their texts
+    std::map<std::string, std::string> storage = {};  // texts of values (stored_value.h) by escaped key
+    std::size_t storageBytes = 0;
+    bool isStorageChanged = false;  // since it was passed to the store
     std::uint64_t randomState = 0;
     int linesSaid = 0;  // in this tick
     bool isSuspended = false;
@@ -164,7 +166,10 @@ void listen(RulesHost& host);
 // Runs the timers that are due, and fills budgets again.
 void runTick(RulesHost& host);
 
-// Passes the storage that changed to the store, in one transaction with all changed blocks.
+void loadStorage(PackRules& pack);
+// Passes all storage that changed to the store, in one transaction with all changed blocks.
 void saveStorage(RulesHost& host);
+// Passes that of one pack, while the session queues saves.
+void queueStorage(PackRules& pack);
 
 }  // namespace terrane::rules

@@ -1,9 +1,10 @@
-// Values that a pack keeps with the world: the table `storage`. Each key is a setting of the world's store,
-// rules.PACK.KEY, and rules.PACK holds the bytes of all.
+// Values that a pack keeps with the world: the table `storage`. All of them are one setting of the world's
+// store, rules.PACK, with a line KEY=VALUE for each.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <utility>
 
+#include "terrane/base/log.h"
 #include "terrane/base/match.h"
 #include "terrane/rules/rules_internal.h"
 #include "terrane/rules/stored_value.h"
@@ -13,22 +14,12 @@ namespace {
 
 constexpr std::int64_t kStepsOfValue = 20;
 
-std::string settingOf(const PackRules& pack, std::string_view key) {
-    return fmt::format("rules.{}.{}", pack.name, escapedKey(key));
+std::string settingOf(const PackRules& pack) {
+    return "rules." + pack.name;
 }
 
-// The text of a setting; empty if there is none.
-std::string textOf(RuleCall& c, const std::string& name) {
-    const auto unsaved = c.pack.unsaved.find(name);
-    if (unsaved != c.pack.unsaved.end()) return unsaved->second;
-    return c.session.store().metadata(name).value_or("");
-}
-
-std::size_t bytesStored(RuleCall& c) {
-    const std::string text = textOf(c, "rules." + c.pack.name);
-    std::size_t bytes = 0;
-    std::from_chars(text.data(), text.data() + text.size(), bytes);
-    return bytes;
+std::size_t lineBytes(std::string_view key, std::string_view value) {
+    return key.size() + value.size() + 2;
 }
 
 std::string_view keyAt(RuleCall& c) {
@@ -121,13 +112,13 @@ void decode(RuleCall& c, const StoredValue& value) {
 
 int get(RuleCall& c) {
     const std::string_view key = keyAt(c);
-    const std::string text = textOf(c, settingOf(c.pack, key));
-    c.charge(static_cast<std::int64_t>(text.size()));
-    if (text.empty()) {
+    const auto found = c.pack.storage.find(escapedKey(key));
+    if (found == c.pack.storage.end()) {
         lua_pushnil(c.L);
         return 1;
     }
-    const auto value = decodeStored(text);
+    c.charge(static_cast<std::int64_t>(found->second.size()));
+    const auto value = decodeStored(found->second);
     if (!value) lua::fail("get: the stored value of \"{}\" is damaged", key);
     decode(c, *value);
     return 1;
@@ -135,18 +126,23 @@ int get(RuleCall& c) {
 
 int set(RuleCall& c) {
     c.requireChange();
-    const std::string name = settingOf(c.pack, keyAt(c));
+    const std::string key = escapedKey(keyAt(c));
     std::string text;
     if (!lua_isnoneornil(c.L, 2)) encode(c, text, 2, 0);
-    c.charge(200 + static_cast<std::int64_t>(text.size()));
-    const std::string before = textOf(c, name);
-    // The name of a removed key still takes its bytes, since its setting stays.
-    const bool isNew = before.empty() && !c.session.store().metadata(name) && !c.pack.unsaved.contains(name);
-    const std::size_t bytes = bytesStored(c) + (isNew ? name.size() : 0) + text.size() - before.size();
-    if (text.size() > before.size() && bytes > kMaxStorage)
+    PackRules& pack = c.pack;
+    // All values of the pack are saved as one text.
+    c.charge(200 + static_cast<std::int64_t>(text.size() + pack.storageBytes / 64));
+    const auto found = pack.storage.find(key);
+    const std::size_t freed = found == pack.storage.end() ? 0 : lineBytes(key, found->second);
+    const std::size_t bytes = pack.storageBytes - freed + (text.empty() ? 0 : lineBytes(key, text));
+    if (bytes > pack.storageBytes && bytes > kMaxStorage)
         lua::fail("set: the storage of a pack takes at most {} KiB", kMaxStorage >> 10);
-    c.pack.unsaved["rules." + c.pack.name] = std::to_string(bytes);
-    c.pack.unsaved[name] = std::move(text);
+    pack.storageBytes = bytes;
+    pack.isStorageChanged = true;
+    if (text.empty())
+        pack.storage.erase(key);
+    else
+        pack.storage.insert_or_assign(key, std::move(text));
     return 0;
 }
 
@@ -154,9 +150,36 @@ constexpr RuleFunction kStorage[] = {{"get", get}, {"set", set}};
 
 }  // namespace
 
+void loadStorage(PackRules& pack) {
+    const std::string text = pack.host.session.store().metadata(settingOf(pack)).value_or("");
+    if (text.size() > kMaxStorage)
+        return base::logError("the storage of the rules of {} is damaged", pack.name);
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string_view line = std::string_view(text).substr(at, end - at);
+        const std::size_t sign = std::min(line.find('='), line.size());
+        pack.storage.emplace(line.substr(0, sign), line.substr(std::min(sign + 1, line.size())));
+        at = end + 1;
+    }
+    for (const auto& [key, value] : pack.storage) pack.storageBytes += lineBytes(key, value);
+}
+
 void saveStorage(RulesHost& host) {
-    if (std::ranges::any_of(host.packs, [](const auto& pack) { return !pack->unsaved.empty(); }))
+    if (std::ranges::any_of(host.packs, [](const auto& pack) { return pack->isStorageChanged; }))
         host.session.queueSaves();
+}
+
+void queueStorage(PackRules& pack) {
+    if (!std::exchange(pack.isStorageChanged, false)) return;
+    std::string text;
+    text.reserve(pack.storageBytes);
+    for (const auto& [key, value] : pack.storage) {
+        text += key;
+        text += '=';
+        text += value;
+        text += '\n';
+    }
+    pack.host.session.store().setMetadata(settingOf(pack), std::move(text));
 }
 
 void addStorageFunctions(lua_State* L) {
