@@ -137,8 +137,8 @@ base::Result<void> play(GLFWwindow* window, game::SessionParts parts) {
     game::BlockInteraction hands(session.blocks());
     int collected = 0;
     const world::BlockId ore = session.blocks().find("glowing_ore")->id;
-    session.setEditListener([&](game::PlayerId, std::span<const world::BlockEdit> edits) {
-        for (const world::BlockEdit& edit : edits)
+    const game::Subscription counting = session.events.edited.add([&](const game::BlocksEdited& event) {
+        for (const world::BlockEdit& edit : event.edits)
             collected += edit.before == ore && edit.after == world::kAir;
         glfwSetWindowTitle(window, ("Ore hills: " + std::to_string(collected) + " ore").c_str());
     });

@@ -170,34 +170,40 @@ PlannedBlocks plannedBlocks(const world::World& world, const world::BlockRegistr
 BuildOutcome Session::build(const BuildCommand& command) {
     using Result = BuildOutcome::Result;
     const auto player = players_.find(command.player);
-    if (command.player != kNoPlayer) {
+    const bool isPlayers = command.player != kNoPlayer && command.pack == kNoPack;
+    if (isPlayers) {
         if (player == players_.end()) return {Result::OutOfReach};
         if (distanceTo(boxOf(command.change), player->second.pose.position) > kBuildReach)
             return {Result::OutOfReach};
     }
     if (const Result result = check(world_, command.change); result != Result::Done) return {result};
-    if (authority_.build && command.player != kNoPlayer) {
+    if (authority_.build && isPlayers) {
         authority_.build(command);
         return {Result::Sent};
     }
-    const PlannedBlocks plan = plannedBlocks(world_, *blocks_, command.change, command.player != kNoPlayer);
+    const PlannedBlocks plan = plannedBlocks(world_, *blocks_, command.change, isPlayers);
     if (!mayChangeAll(permissions, command.player, plan.blocks)) return {Result::NotAllowed};
     // Blocks of a structure keep their states; behaviors may change those of a fill.
     const bool isFill = std::holds_alternative<FillBox>(command.change);
+    const BuildAction action{isFill ? BuildAct::Fill : BuildAct::Structure, command.player,
+                             boxOf(command.change), plan.blocks.size()};
+    if (isPlayers && isRefused(action)) return {Result::Refused};
+    const bool isRecorded = command.player != kNoPlayer || (command.pack != kNoPack && hasHistory());
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
-    world::BlockUpdate update(world_, *blocks_, edits, player == players_.end() ? nullptr : &recorder);
+    world::BlockUpdate update(world_, *blocks_, edits, isRecorded ? &recorder : nullptr);
     update.restore(plan.blocks, isFill ? world::RestoreScope::All : world::RestoreScope::Border);
     update.run();
     if (breaksForeign(command.player, edits)) {
         takeBackAll(recorder.take(), edits, 0);
         return {Result::NotAllowed};
     }
-    if (player != players_.end()) {
-        EditStep step = notifyStep(command.player, recorder);
-        player->second.history.add(std::move(step));
+    if (isRecorded) {
+        EditStep step = notifyStep({command.player, command.pack}, recorder);
+        if (isPlayers) player->second.history.add(std::move(step));
     }
-    notifyEdits(command.player, edits);
+    notifyEdits({command.player, command.pack}, edits);
+    if (isPlayers) events.build.notify(BuildAction(action));
     return {Result::Done, plan.blocks.size(), plan.skipped};
 }
 

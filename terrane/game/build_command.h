@@ -38,6 +38,7 @@ using BuildChange = std::variant<FillBox, PlaceStructure>;
 struct BuildCommand {
     PlayerId player = kNoPlayer;
     BuildChange change;
+    PackId pack = kNoPack;  // see EditCommand::pack
 };
 
 struct BuildOutcome {
@@ -51,6 +52,7 @@ struct BuildOutcome {
         NotAllowed,  // the player may not change some block of it (permissions.h)
         TooSoon,     // a server allows the player so many blocks only after a while
         Sent,        // to the server that decides (Authority); the result comes later
+        Refused,     // by a listener of BeforeBuildAction (events.h), whose reason was said to the player
     };
     Result result = Result::Empty;
     std::size_t changed = 0;  // blocks that changed

@@ -2,6 +2,7 @@
 // the changes to the pipeline as world::BlockEdit. All are plain values.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,6 +16,25 @@ using PlayerId = std::uint32_t;
 constexpr PlayerId kNoPlayer = 0;
 constexpr PlayerId kLocalPlayer = 1;  // of a game without a network
 
+// A content pack whose rules change blocks, by its number in Session::packs.
+using PackId = std::uint32_t;
+constexpr PackId kNoPack = 0;
+
+// Who changes blocks. A pack may act for a player, whose permissions then hold.
+struct Author {
+    PlayerId player = kNoPlayer;
+    PackId pack = kNoPack;
+
+    auto operator<=>(const Author&) const = default;
+};
+// An author as one number, which is that of the player if no pack acts.
+constexpr std::uint64_t numberOf(Author author) {
+    return std::uint64_t{author.pack} << 32 | author.player;
+}
+constexpr Author authorOf(std::uint64_t number) {
+    return {static_cast<PlayerId>(number), static_cast<PackId>(number >> 32)};
+}
+
 constexpr double kReach = 8;  // blocks from the eyes of a player
 
 struct EditCommand {
@@ -22,6 +42,7 @@ struct EditCommand {
     world::BlockPos pos;
     world::BlockChange change;
     std::optional<world::BlockId> expected;  // the block that the player saw there
+    PackId pack = kNoPack;                   // that changes it, for the player or for nobody: in any distance
 };
 
 enum class EditResult : std::uint8_t {
@@ -35,6 +56,7 @@ enum class EditResult : std::uint8_t {
     BadData,     // no valid text, for a sign
     NotAllowed,  // to this player: Role::Guest
     Claimed,     // it is in a claim of somebody else
+    Refused,     // by a listener of BeforeBlockAction (events.h), whose reason was said to the player
 };
 
 // The result of undoing or redoing a step.
@@ -45,6 +67,7 @@ struct UndoResult {
         NotLoaded,   // some chunk of it is not loaded: nothing changes, and the step stays the next one
         NotAllowed,  // the player may not change some block of it (permissions.h): likewise
         Sent,        // to the server that decides (Authority); the result comes later
+        Refused,     // by a listener of BeforeBuildAction (events.h), whose reason was said to the player
     };
     Outcome outcome = Outcome::NoStep;
     std::size_t blocks = 0;   // restored

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -24,6 +25,19 @@ constexpr double kMaxTickSeconds = 1;
 bool touches(const ColumnArea& area, world::ChunkPos pos) {
     return pos.x >= (area.x0 >> 4) - 1 && pos.x <= (area.x1 >> 4) + 1 && pos.y >= (area.y0 >> 4) - 1 &&
            pos.y <= (area.y1 >> 4) + 1;
+}
+
+// The smallest box with all of the blocks.
+world::BlockBox boxAround(std::span<const world::PlacedBlock> blocks) {
+    if (blocks.empty()) return {};
+    world::BlockBox box{blocks.front().pos, blocks.front().pos};
+    for (const world::PlacedBlock& block : blocks) {
+        box.low = {std::min(box.low.x, block.pos.x), std::min(box.low.y, block.pos.y),
+                   std::min(box.low.z, block.pos.z)};
+        box.high = {std::max(box.high.x, block.pos.x), std::max(box.high.y, block.pos.y),
+                    std::max(box.high.z, block.pos.z)};
+    }
+    return box;
 }
 
 }  // namespace
@@ -82,7 +96,7 @@ EditResult Session::predictEdit(const EditCommand& command) {
     if (result != EditResult::Applied) return result;
     EditStep changed = stepSince(world_, changes.steps);
     std::ranges::move(stepSince(world_, changes.uses), std::back_inserter(changed));
-    notifyEdits(command.player, edits);
+    notifyEdits({command.player}, edits);
     authority_.edited(command, changed);
     return result;
 }
@@ -90,39 +104,78 @@ EditResult Session::predictEdit(const EditCommand& command) {
 std::vector<EditResult> Session::applyAll(std::span<const EditCommand> commands) {
     std::vector<EditResult> results;
     std::vector<world::BlockEdit> edits;
-    std::unordered_map<PlayerId, PlayerChanges> changes;
+    std::map<Author, PlayerChanges> changes;
+    std::vector<BlockAction> actions;
     results.reserve(commands.size());
-    for (const EditCommand& command : commands)
-        results.push_back(apply(command, edits, changes[command.player]));
-    for (auto& [player, changed] : changes) {
-        const auto found = players_.find(player);
-        if (player == kNoPlayer) notifyStep(kNoPlayer, changed.steps);
-        if (found == players_.end()) continue;
-        EditStep step = notifyStep(player, changed.steps);
-        notifyStep(player, changed.uses);
+    for (const EditCommand& command : commands) {
+        const auto action = actionOf(command);
+        results.push_back(apply(command, edits, changes[{command.player, command.pack}]));
+        if (action && results.back() == EditResult::Applied) actions.push_back(*action);
+    }
+    for (auto& [author, changed] : changes) {
+        const auto found = players_.find(author.player);
+        const bool isPlayers = author.pack == kNoPack && author.player != kNoPlayer;
+        if (isPlayers && found == players_.end()) continue;
+        EditStep step = notifyStep(author, changed.steps);
+        if (!isPlayers) continue;
+        notifyStep(author, changed.uses);
         found->second.history.add(std::move(step));
     }
-    notifyEdits(commands.empty() ? kNoPlayer : commands.front().player, edits);
+    const EditCommand first = commands.empty() ? EditCommand{} : commands.front();
+    notifyEdits({first.player, first.pack}, edits);
+    for (BlockAction& action : actions) events.block.notify(action);
     return results;
+}
+
+// What a player does with a command; nothing if it is another's, or changes the data of a block.
+std::optional<BlockAction> Session::actionOf(const EditCommand& command) const {
+    if (command.player == kNoPlayer || command.pack != kNoPack) return std::nullopt;
+    const world::BlockId there = world_.block(command.pos);
+    if (std::holds_alternative<world::UseBlock>(command.change))
+        return BlockAction{BlockAct::Use, command.player, command.pos, there, there};
+    const auto* set = std::get_if<world::SetBlock>(&command.change);
+    if (!set) return std::nullopt;
+    const BlockAct act = set->id == world::kAir ? BlockAct::Break : BlockAct::Place;
+    return BlockAction{act, command.player, command.pos, there, set->id};
+}
+
+bool Session::isRefused(const BlockAction& action) {
+    BeforeBlockAction before{action, {}};
+    events.beforeBlock.notify(before);
+    if (before.refusal) events.said.notify({action.player, *before.refusal});
+    return before.refusal.has_value();
+}
+
+bool Session::isRefused(const BuildAction& action) {
+    BeforeBuildAction before{action, {}};
+    events.beforeBuild.notify(before);
+    if (before.refusal) events.said.notify({action.player, *before.refusal});
+    return before.refusal.has_value();
 }
 
 EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
                           PlayerChanges& changes) {
-    if (!canReach(command.player, command.pos)) return EditResult::OutOfReach;
+    const bool isPacks = command.pack != kNoPack;
+    if (!isPacks && !canReach(command.player, command.pos)) return EditResult::OutOfReach;
     if (!world_.isMade(command.pos)) return EditResult::NotLoaded;
     if (const auto refused = refusal(permissions, command.player, command.pos)) return *refused;
     if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
-    if (const auto refusal = refusalOfBreaking(command)) return *refusal;
+    if (!isPacks)
+        if (const auto refusal = refusalOfBreaking(command)) return *refusal;
     const auto* data = std::get_if<world::SetEntityData>(&command.change);
     const bool isText = data && world::isSign(blocks_->type(world_.block(command.pos)));
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     if (data && !maySetItems(world_, *blocks_, command.pos, data->data)) return EditResult::BadData;
+    if (const auto action = actionOf(command); action && isRefused(*action)) return EditResult::Refused;
     const std::size_t before = edits.size();
     const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
-    // Changes by nobody are one step, recorded only for a listener: of scripts if it hears all, and growth.
+    // Changes by nobody are one step, recorded only for a history: of scripts if it hears all, of packs, and
+    // growth.
     const bool isGrowth = std::holds_alternative<world::RunTick>(command.change);
-    const bool isRecorded = command.player != kNoPlayer || reportsAll_ || (isGrowth && changeListener_);
-    world::BlockRecorder& recorded = isStep || command.player == kNoPlayer ? changes.steps : changes.uses;
+    const bool isRecorded = command.player != kNoPlayer || !events.changedAtAll.isEmpty() ||
+                            ((isGrowth || isPacks) && hasHistory());
+    const bool isOneStep = isStep || isPacks || command.player == kNoPlayer;
+    world::BlockRecorder& recorded = isOneStep ? changes.steps : changes.uses;
     const bool mayBeRefused = command.player != kNoPlayer && !permissions.claims.all().empty();
     world::BlockRecorder own;  // of a change that may have to be taken back
     world::BlockRecorder* const recorder = mayBeRefused ? &own : &recorded;
@@ -165,6 +218,12 @@ UndoResult Session::undoOrRedo(PlayerId player, HistoryWay way) {
     if (!mayChangeAll(permissions, player, *step)) return refuse();
     const std::vector<world::PlacedBlock> blocks = blocksBefore(world_, *step);
     const UndoResult result{Outcome::Done, blocks.size(), step->size() - blocks.size()};
+    const BuildAction action{way == HistoryWay::Undo ? BuildAct::Undo : BuildAct::Redo, player,
+                             boxAround(blocks), blocks.size()};
+    if (isRefused(action)) {
+        found->second.history.finishStep(way, {});
+        return {Outcome::Refused};
+    }
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
@@ -172,9 +231,10 @@ UndoResult Session::undoOrRedo(PlayerId player, HistoryWay way) {
         takeBackAll(recorder.take(), edits, 0);
         return refuse();
     }
-    EditStep reverse = notifyStep(player, recorder);
+    EditStep reverse = notifyStep({player}, recorder);
     found->second.history.finishStep(way, std::move(reverse));
-    notifyEdits(player, edits);
+    notifyEdits({player}, edits);
+    events.build.notify(BuildAction(action));
     return result;
 }
 
@@ -212,30 +272,26 @@ void Session::takeBackAll(std::span<const world::PlacedBlock> former, std::vecto
     edits.resize(firstEdit);
 }
 
-void Session::notifyEdits(PlayerId player, std::span<const world::BlockEdit> edits) {
-    if (changeListener_ && player != kNoPlayer) flow_.note(world_, *blocks_, edits, player);
+void Session::notifyEdits(Author author, std::span<const world::BlockEdit> edits) {
+    if (hasHistory() && author != Author{}) flow_.note(world_, *blocks_, edits, numberOf(author));
     pipeline_.onEdits(edits);
-    if (editListener_ && !edits.empty()) editListener_(player, edits);
+    if (!edits.empty()) events.edited.notify({author.player, edits});
 }
 
-// Reports recorded changes to the listener; returns those that the player can undo.
-EditStep Session::notifyStep(PlayerId player, world::BlockRecorder& recorder) {
+// Tells recorded changes; returns those that the player can undo.
+EditStep Session::notifyStep(Author author, world::BlockRecorder& recorder) {
     EditStep all = allSince(world_, recorder);
-    if (reportsAll_) notifyChanges(player, all);
+    if (!all.empty()) events.changedAtAll.notify({author, all});
     EditStep step = stepOf(std::move(all));
-    if (!reportsAll_) notifyChanges(player, step);
+    if (!step.empty()) events.changed.notify({author, step});
     return step;
-}
-
-void Session::notifyChanges(PlayerId player, std::span<const ChangedBlock> changes) {
-    if (changeListener_ && !changes.empty()) changeListener_(player, changes);
 }
 
 void Session::setBlocks(std::span<const world::PlacedBlock> blocks) {
     std::vector<world::BlockEdit> edits;
     world::BlockUpdate update(world_, *blocks_, edits);
     update.restore(blocks, world::RestoreScope::None);
-    notifyEdits(kNoPlayer, edits);
+    notifyEdits({}, edits);
 }
 
 void Session::runRules(std::span<const world::BlockPos> positions) {
@@ -245,8 +301,8 @@ void Session::runRules(std::span<const world::BlockPos> positions) {
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
-    notifyStep(kNoPlayer, recorder);
-    notifyEdits(kNoPlayer, edits);
+    notifyStep({}, recorder);
+    notifyEdits({}, edits);
 }
 
 bool Session::canReach(PlayerId player, world::BlockPos pos) const {
@@ -268,10 +324,16 @@ void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
     untilTick_ += std::min(seconds, kMaxTickSeconds);
     for (; untilTick_ >= tickSeconds; untilTick_ -= tickSeconds) {
         std::vector<EditCommand> ticks;
-        for (const world::BlockPos pos : world::blocksToTick(world_, *blocks_, ticks_++, chunks))
+        const std::uint64_t tick = ticks_++;
+        for (const world::BlockPos pos : world::blocksToTick(world_, *blocks_, tick, chunks))
             ticks.push_back({kNoPlayer, pos, world::RunTick{}, std::nullopt});
         edit(ticks);
         if (ticks_ % world::kTicksPerFlow == 0) flow(chunks);
+        if (!events.randomTickBlocks.empty())
+            for (const world::BlockPos pos :
+                 world::blocksOfKinds(world_, events.randomTickBlocks, tick, chunks))
+                events.randomTick.notify({pos, world_.block(pos)});
+        events.tick.notify({tick});
     }
 }
 
@@ -294,14 +356,25 @@ void Session::flow(std::span<const world::ChunkPos> chunks) {
     };
     std::vector<world::BlockEdit> edits;
     world::flowLiquids(world_, *blocks_, chunks, edits,
-                       {near.empty() ? nullptr : &mayReach, changeListener_ ? &flow_ : nullptr});
-    for (auto& [cause, changes] : flow_.changes) notifyStep(static_cast<PlayerId>(cause), changes);
+                       {near.empty() ? nullptr : &mayReach, hasHistory() ? &flow_ : nullptr});
+    for (auto& [cause, changes] : flow_.changes) notifyStep(authorOf(cause), changes);
     flow_.changes.clear();
-    notifyEdits(kNoPlayer, edits);
+    notifyEdits({}, edits);
+}
+
+std::optional<world::Pose> Session::poseOf(PlayerId player) const {
+    const auto found = players_.find(player);
+    return found == players_.end() ? std::nullopt : std::optional(found->second.pose);
+}
+
+void Session::queueSaves() {
+    const auto together = store_->together();
+    pipeline_.saveAll();
+    events.saving.notify({});
 }
 
 base::Result<void> Session::save() {
-    pipeline_.saveAll();
+    queueSaves();
     return store_->flush();
 }
 

@@ -1,19 +1,23 @@
 // A world that is played: its chunks, the pipeline that loads, lights and meshes them, its store, its players
-// and its clock. Players change blocks by edit(), build() and undoOrRedo(); the events go to the pipeline,
-// and so to the screen and the disk. Uses no OpenGL. It is used on one thread, the world's.
+// and its clock. Players change blocks by edit(), build() and undoOrRedo(); the changes go to the pipeline,
+// and so to the screen and the disk, and to the listeners of `events`. Uses no OpenGL. It is used on one
+// thread, the world's.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "terrane/base/job_system.h"
 #include "terrane/game/build_command.h"
+#include "terrane/game/chat.h"
 #include "terrane/game/edit_command.h"
 #include "terrane/game/edit_history.h"
+#include "terrane/game/events.h"
 #include "terrane/game/permissions.h"
 #include "terrane/game/player_state.h"
 #include "terrane/game/session_parts.h"
@@ -52,21 +56,6 @@ class Session {
     // Returns the chunks that undoOrRedo() needs loaded; empty if there is no such step.
     std::vector<world::ChunkPos> chunksOfNextStep(PlayerId player, HistoryWay way) const;
 
-    // The session calls the listener after each change with its events and its player, for sounds. The
-    // listener changes no block.
-    using EditListener = std::function<void(PlayerId, std::span<const world::BlockEdit>)>;
-    void setEditListener(EditListener listener) { editListener_ = std::move(listener); }
-
-    // Called with the blocks that a player's edit, building or undoing changed, each once: for a history of
-    // who changed what. Flow is a change by the player whose edit made the liquid flow; growth, and flow that
-    // nobody is known to have caused, are changes by kNoPlayer. With `reportsAll` also with changes that
-    // nobody can undo: liquid that becomes unsettled.
-    using ChangeListener = std::function<void(PlayerId, std::span<const ChangedBlock>)>;
-    void setChangeListener(ChangeListener listener, bool reportsAll = false) {
-        changeListener_ = std::move(listener);
-        reportsAll_ = reportsAll;
-    }
-
     // Sets exactly these blocks, as a server or a history gives them: nothing is checked and no behavior is
     // called. Blocks in chunks that are not loaded are left out.
     void setBlocks(std::span<const world::PlacedBlock> blocks);
@@ -80,6 +69,8 @@ class Session {
 
     // Sets the pose of a player, by which its edits are checked. The first call begins its history.
     void setPlayer(PlayerId player, const world::Pose& pose) { players_[player].pose = pose; }
+    // Returns the pose; none of an unknown player.
+    std::optional<world::Pose> poseOf(PlayerId player) const;
     void removePlayer(PlayerId player) { players_.erase(player); }
 
     // Advances game time: the clock, and ticks of blocks near `center` (plants grow, liquids flow).
@@ -87,7 +78,9 @@ class Session {
     // Does the same for blocks of these chunks.
     void advance(double seconds, std::span<const world::ChunkPos> chunks);
 
-    // Waits until all changes are in the store.
+    // Passes all changed chunks to the store, and what listeners of Saving add, as one transaction.
+    void queueSaves();
+    // Does so and waits until all changes are in the store.
     [[nodiscard]] base::Result<void> save();
 
     const world::BlockRegistry& blocks() const { return *blocks_; }
@@ -109,6 +102,9 @@ class Session {
 
     DayClock clock;
     Permissions permissions;
+    Events events;
+    std::vector<ChatCommand> chatCommands;
+    std::vector<std::string> packs;  // names of those that change blocks; number 1 is the first
 
   private:
     struct PlayerEntry {
@@ -122,15 +118,18 @@ class Session {
     std::vector<EditResult> applyAll(std::span<const EditCommand> commands);
     EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
                      PlayerChanges& changes);
+    std::optional<BlockAction> actionOf(const EditCommand& command) const;
+    bool isRefused(const BlockAction& action);
+    bool isRefused(const BuildAction& action);
     bool canReach(PlayerId player, world::BlockPos pos) const;
     bool breaksForeign(PlayerId player, std::span<const world::BlockEdit> edits) const;
     void takeBackAll(std::span<const world::PlacedBlock> former, std::vector<world::BlockEdit>& edits,
                      std::size_t firstEdit);
     void flow(std::span<const world::ChunkPos> chunks);
     std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
-    void notifyEdits(PlayerId player, std::span<const world::BlockEdit> edits);
-    EditStep notifyStep(PlayerId player, world::BlockRecorder& recorder);
-    void notifyChanges(PlayerId player, std::span<const ChangedBlock> changes);
+    void notifyEdits(Author author, std::span<const world::BlockEdit> edits);
+    EditStep notifyStep(Author author, world::BlockRecorder& recorder);
+    bool hasHistory() const { return !events.changed.isEmpty() || !events.changedAtAll.isEmpty(); }
     EditResult predictEdit(const EditCommand& command);
 
     // These refer to each other and are destroyed in reverse order.
@@ -146,10 +145,7 @@ class Session {
     stream::TilePipeline tiles_;
 
     std::unordered_map<PlayerId, PlayerEntry> players_;
-    EditListener editListener_;
-    ChangeListener changeListener_;
-    bool reportsAll_ = false;
-    world::FlowRecord flow_;  // who made liquid flow; kept only for a change listener
+    world::FlowRecord flow_;  // who made liquid flow, by numberOf(); kept only for a history
     Authority authority_;
     double untilTick_ = 0;  // seconds of game time that are not yet a whole tick
     std::uint64_t ticks_ = 0;

@@ -1,13 +1,12 @@
 // Basic functions of Lua in a form that shows no addresses and has one result on every machine.
 #include <algorithm>
+#include <vector>
 
-#include "terrane/base/log.h"
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/call.h"
 
 namespace terrane::lua {
 namespace {
 
-constexpr int kMaxPrintedLines = 20;
 constexpr std::size_t kMaxPrintedBytes = 200;
 
 // As text; of tables, functions and objects the type, since the rest is an address.
@@ -38,17 +37,16 @@ int toString(Call& c) {
     return 1;
 }
 
-// Writes a line to the log, while level 0 is recorded: else each level would repeat it.
 int print(Call& c) {
-    if (!c.recording.prints || c.recording.builder.step() > 1) return 0;
-    if (c.recording.printedLines++ >= kMaxPrintedLines) return 0;
+    if (!c.sandbox.print || c.sandbox.printsLeft <= 0) return 0;
+    --c.sandbox.printsLeft;
     std::string line;
     for (int k = 1; k <= c.count() && line.size() < kMaxPrintedBytes; ++k) {
         if (k > 1) line += ' ';
         line += lua_type(c.L, k) == LUA_TSTRING ? std::string(c.text(k).substr(0, kMaxPrintedBytes))
                                                 : asText(c, k);
     }
-    base::logInfo("script: {}", line.substr(0, kMaxPrintedBytes));
+    c.sandbox.print(std::string_view(line).substr(0, kMaxPrintedBytes));
     return 0;
 }
 

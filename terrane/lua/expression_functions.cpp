@@ -4,7 +4,7 @@
 
 #include "terrane/gen/generators/trees/trees.h"
 #include "terrane/gen/noise/noise.h"
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/graph_call_internal.h"
 
 namespace terrane::lua {
 namespace {
@@ -17,7 +17,7 @@ constexpr int kMaxCases = 1'000;
 
 // Calls it with Int or Float, whichever the arguments are.
 template <class Use>
-int withNumbers(Call& c, std::initializer_list<int> arguments, Use use) {
+int withNumbers(GraphCall& c, std::initializer_list<int> arguments, Use use) {
     const Kind kind = c.commonKind(arguments);
     if (kind == Kind::Int) return use(Int(0));
     if (kind == Kind::Float) return use(Float(0.0f));
@@ -31,7 +31,7 @@ Parts selectParts(Bool condition, Kind kind, const Parts& a, const Parts& b) {
     return result;
 }
 
-int select(Call& c) {
+int select(GraphCall& c) {
     const Kind kind = c.commonKind({2, 3});
     // One after the other: names of blocks are numbered as they come, on every machine alike.
     const Bool condition = c.get<Bool>(1);
@@ -40,7 +40,7 @@ int select(Call& c) {
 }
 
 // Pushes a case's condition and value.
-void pushCase(Call& c, int cases, int number) {
+void pushCase(GraphCall& c, int cases, int number) {
     if (lua_geti(c.L, cases, number) != LUA_TTABLE)
         fail("multiSelect: case {} is not {{condition, value}}", number);
     lua_geti(c.L, -1, 1);
@@ -49,7 +49,7 @@ void pushCase(Call& c, int cases, int number) {
 }
 
 // The kind that all values share. A literal takes the kind of the others.
-Kind kindOfCases(Call& c, int count) {
+Kind kindOfCases(GraphCall& c, int count) {
     Kind common = c.commonKind({2});
     bool isFixed = c.expression(2) != nullptr || !c.isNumber(2);
     for (int k = 1; k <= count; ++k) {
@@ -66,7 +66,7 @@ Kind kindOfCases(Call& c, int count) {
     return common;
 }
 
-int multiSelect(Call& c) {
+int multiSelect(GraphCall& c) {
     const auto count = static_cast<int>(std::min<lua_Integer>(c.listLength(1), kMaxCases + 1));
     if (count > kMaxCases) fail("multiSelect: more than {} cases", kMaxCases);
     c.charge(10 * count);
@@ -84,7 +84,7 @@ int multiSelect(Call& c) {
 
 // Applies the operation to two or more arguments, from left to right.
 template <class Operation>
-int fold(Call& c, Operation operation) {
+int fold(GraphCall& c, Operation operation) {
     const int count = c.count();
     c.charge(40 * count);
     for (int k = 2; k <= count || k == 2; ++k) {
@@ -99,63 +99,63 @@ int fold(Call& c, Operation operation) {
     return 1;
 }
 
-int minimum(Call& c) {
+int minimum(GraphCall& c) {
     return fold(c, [](auto a, auto b) { return gen::min(a, b); });
 }
 
-int maximum(Call& c) {
+int maximum(GraphCall& c) {
     return fold(c, [](auto a, auto b) { return gen::max(a, b); });
 }
 
 // clang-format off
-int clamp(Call& c) { return withNumbers(c, {1, 2, 3}, [&](auto t) { using T = decltype(t); return c.push(gen::clamp(c.get<T>(1), c.get<T>(2), c.get<T>(3))); }); }
-int absolute(Call& c) { return withNumbers(c, {1}, [&](auto t) { using T = decltype(t); return c.push(gen::abs(c.get<T>(1))); }); }
-int floor(Call& c) { return c.push(gen::floor(c.get<Float>(1))); }
-int ceil(Call& c) { return c.push(gen::ceil(c.get<Float>(1))); }
-int round(Call& c) { return c.push(gen::round(c.get<Float>(1))); }
-int squareRoot(Call& c) { return c.push(gen::sqrt(c.get<Float>(1))); }
-int exp2(Call& c) { return c.push(gen::exp2(c.get<Float>(1))); }
-int log2(Call& c) { return c.push(gen::log2(c.get<Float>(1))); }
-int powerOf(Call& c) { return c.push(gen::pow(c.get<Float>(1), c.get<Float>(2))); }
-int sine(Call& c) { return c.push(gen::sin(c.get<Float>(1))); }
-int cosine(Call& c) { return c.push(gen::cos(c.get<Float>(1))); }
-int lerp(Call& c) { return c.push(gen::lerp(c.get<Float>(1), c.get<Float>(2), c.get<Float>(3))); }
-int smoothstep(Call& c) { return c.push(gen::smoothstep(c.get<Float>(1), c.get<Float>(2), c.get<Float>(3))); }
-int floorDivision(Call& c) { return c.push(gen::floorDivide(c.get<Int>(1), c.get<Int>(2))); }
-int floorModulo(Call& c) { return c.push(gen::floorModulo(c.get<Int>(1), c.get<Int>(2))); }
-int packColor(Call& c) { return c.push(gen::packColor(c.get<Float>(1), c.get<Float>(2), c.get<Float>(3))); }
-int floatBits(Call& c) { return c.push(gen::floatBits(c.get<Float>(1))); }
-int bitsFloat(Call& c) { return c.push(gen::bitsFloat(c.get<Int>(1))); }
-int toInt(Call& c) { return c.commonKind({1}) == Kind::Int ? c.push(c.get<Int>(1)) : c.push(Int(c.get<Float>(1))); }
-int toFloat(Call& c) { return c.commonKind({1}) == Kind::Float ? c.push(c.get<Float>(1)) : c.push(Float(c.get<Int>(1))); }
-int vec2(Call& c) { return c.push(gen::Vec2{c.get<Float>(1), c.get<Float>(2)}); }
-int vec3(Call& c) { return c.push(gen::Vec3{c.get<Float>(1), c.get<Float>(2), c.get<Float>(3)}); }
-int ivec2(Call& c) { return c.push(gen::IVec2{c.get<Int>(1), c.get<Int>(2)}); }
+int clamp(GraphCall& c) { return withNumbers(c, {1, 2, 3}, [&](auto t) { using T = decltype(t); return c.push(gen::clamp(c.get<T>(1), c.get<T>(2), c.get<T>(3))); }); }
+int absolute(GraphCall& c) { return withNumbers(c, {1}, [&](auto t) { using T = decltype(t); return c.push(gen::abs(c.get<T>(1))); }); }
+int floor(GraphCall& c) { return c.push(gen::floor(c.get<Float>(1))); }
+int ceil(GraphCall& c) { return c.push(gen::ceil(c.get<Float>(1))); }
+int round(GraphCall& c) { return c.push(gen::round(c.get<Float>(1))); }
+int squareRoot(GraphCall& c) { return c.push(gen::sqrt(c.get<Float>(1))); }
+int exp2(GraphCall& c) { return c.push(gen::exp2(c.get<Float>(1))); }
+int log2(GraphCall& c) { return c.push(gen::log2(c.get<Float>(1))); }
+int powerOf(GraphCall& c) { return c.push(gen::pow(c.get<Float>(1), c.get<Float>(2))); }
+int sine(GraphCall& c) { return c.push(gen::sin(c.get<Float>(1))); }
+int cosine(GraphCall& c) { return c.push(gen::cos(c.get<Float>(1))); }
+int lerp(GraphCall& c) { return c.push(gen::lerp(c.get<Float>(1), c.get<Float>(2), c.get<Float>(3))); }
+int smoothstep(GraphCall& c) { return c.push(gen::smoothstep(c.get<Float>(1), c.get<Float>(2), c.get<Float>(3))); }
+int floorDivision(GraphCall& c) { return c.push(gen::floorDivide(c.get<Int>(1), c.get<Int>(2))); }
+int floorModulo(GraphCall& c) { return c.push(gen::floorModulo(c.get<Int>(1), c.get<Int>(2))); }
+int packColor(GraphCall& c) { return c.push(gen::packColor(c.get<Float>(1), c.get<Float>(2), c.get<Float>(3))); }
+int floatBits(GraphCall& c) { return c.push(gen::floatBits(c.get<Float>(1))); }
+int bitsFloat(GraphCall& c) { return c.push(gen::bitsFloat(c.get<Int>(1))); }
+int toInt(GraphCall& c) { return c.commonKind({1}) == Kind::Int ? c.push(c.get<Int>(1)) : c.push(Int(c.get<Float>(1))); }
+int toFloat(GraphCall& c) { return c.commonKind({1}) == Kind::Float ? c.push(c.get<Float>(1)) : c.push(Float(c.get<Int>(1))); }
+int vec2(GraphCall& c) { return c.push(gen::Vec2{c.get<Float>(1), c.get<Float>(2)}); }
+int vec3(GraphCall& c) { return c.push(gen::Vec3{c.get<Float>(1), c.get<Float>(2), c.get<Float>(3)}); }
+int ivec2(GraphCall& c) { return c.push(gen::IVec2{c.get<Int>(1), c.get<Int>(2)}); }
 // clang-format on
 
-int dot(Call& c) {
+int dot(GraphCall& c) {
     if (c.commonKind({1, 2}) == Kind::Vec3) return c.push(gen::dot(c.get<gen::Vec3>(1), c.get<gen::Vec3>(2)));
     return c.push(gen::dot(c.get<gen::Vec2>(1), c.get<gen::Vec2>(2)));
 }
 
-int length(Call& c) {
+int length(GraphCall& c) {
     if (c.commonKind({1}) == Kind::Vec3) return c.push(gen::length(c.get<gen::Vec3>(1)));
     return c.push(gen::length(c.get<gen::Vec2>(1)));
 }
 
-int lostDeviation(Call& c) {
+int lostDeviation(GraphCall& c) {
     return c.push(Float(gen::lostDeviation(c.weights(1), c.size(2), c.integer(3, 1, 1 << world::kMaxLevel))));
 }
 
-int lostSlope(Call& c) {
+int lostSlope(GraphCall& c) {
     return c.push(Float(gen::lostSlope(c.weights(1), c.size(2), c.integer(3, 1, 1 << world::kMaxLevel))));
 }
 
-int shareLeft(Call& c) {
+int shareLeft(GraphCall& c) {
     return c.push(Float(gen::shareLeft(c.size(1), c.integer(2, 1, 1 << world::kMaxLevel))));
 }
 
-int shapeOf(Call& c) {
+int shapeOf(GraphCall& c) {
     c.table(1);
     gen::trees::KindRecord kind;
     lua_getfield(c.L, 1, "first");
@@ -165,43 +165,43 @@ int shapeOf(Call& c) {
     return c.push(gen::trees::shapeOf(kind, c.get<Int>(2)));
 }
 
-constexpr Function kExpressionFunctions[] = {{"select", select},
-                                             {"multiSelect", multiSelect},
-                                             {"min", minimum},
-                                             {"max", maximum},
-                                             {"clamp", clamp},
-                                             {"abs", absolute},
-                                             {"floor", floor},
-                                             {"ceil", ceil},
-                                             {"round", round},
-                                             {"sqrt", squareRoot},
-                                             {"exp2", exp2},
-                                             {"log2", log2},
-                                             {"pow", powerOf},
-                                             {"sin", sine},
-                                             {"cos", cosine},
-                                             {"lerp", lerp},
-                                             {"smoothstep", smoothstep},
-                                             {"floorDivide", floorDivision},
-                                             {"floorModulo", floorModulo},
-                                             {"packColor", packColor},
-                                             {"floatBits", floatBits},
-                                             {"bitsFloat", bitsFloat},
-                                             {"int", toInt},
-                                             {"float", toFloat},
-                                             {"vec2", vec2},
-                                             {"vec3", vec3},
-                                             {"ivec2", ivec2},
-                                             {"dot", dot},
-                                             {"length", length},
-                                             {"lostDeviation", lostDeviation},
-                                             {"lostSlope", lostSlope},
-                                             {"shareLeft", shareLeft},
-                                             {"shapeOf", shapeOf}};
+constexpr GraphFunction kExpressionFunctions[] = {{"select", select},
+                                                  {"multiSelect", multiSelect},
+                                                  {"min", minimum},
+                                                  {"max", maximum},
+                                                  {"clamp", clamp},
+                                                  {"abs", absolute},
+                                                  {"floor", floor},
+                                                  {"ceil", ceil},
+                                                  {"round", round},
+                                                  {"sqrt", squareRoot},
+                                                  {"exp2", exp2},
+                                                  {"log2", log2},
+                                                  {"pow", powerOf},
+                                                  {"sin", sine},
+                                                  {"cos", cosine},
+                                                  {"lerp", lerp},
+                                                  {"smoothstep", smoothstep},
+                                                  {"floorDivide", floorDivision},
+                                                  {"floorModulo", floorModulo},
+                                                  {"packColor", packColor},
+                                                  {"floatBits", floatBits},
+                                                  {"bitsFloat", bitsFloat},
+                                                  {"int", toInt},
+                                                  {"float", toFloat},
+                                                  {"vec2", vec2},
+                                                  {"vec3", vec3},
+                                                  {"ivec2", ivec2},
+                                                  {"dot", dot},
+                                                  {"length", length},
+                                                  {"lostDeviation", lostDeviation},
+                                                  {"lostSlope", lostSlope},
+                                                  {"shareLeft", shareLeft},
+                                                  {"shapeOf", shapeOf}};
 
 }  // namespace
 
-std::span<const Function> expressionFunctions() {
+std::span<const GraphFunction> expressionFunctions() {
     return kExpressionFunctions;
 }
 

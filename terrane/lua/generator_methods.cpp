@@ -1,7 +1,7 @@
 // Methods of the generator: fields, passes, tint, shapes, trees, drainage maps.
 
 #include "terrane/gen/generators/trees/trees.h"
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/graph_call_internal.h"
 
 namespace terrane::lua {
 namespace {
@@ -9,18 +9,18 @@ namespace {
 using gen::Float;
 
 // Also inside of a drainage map's function, whose builder does not know what is declared meanwhile.
-void requireNoPass(Call& c) {
+void requireNoPass(GraphCall& c) {
     if (c.recording.pass != nullptr) fail("{}: not inside of a pass", c.function);
 }
 
-std::string nameOfPart(Call& c, int argument) {
+std::string nameOfPart(GraphCall& c, int argument) {
     const std::string_view name = c.text(argument);
     if (name.empty() || name.size() > kMaxNameBytes)
         fail("{}: names have 1 to {} bytes", c.function, kMaxNameBytes);
     return std::string(name);
 }
 
-int field(Call& c) {
+int field(GraphCall& c) {
     requireNoPass(c);
     const std::string name = nameOfPart(c, 1);
     const std::string_view type = c.text(2);
@@ -64,7 +64,7 @@ class OpenPass {
 };
 
 // Calls the script's function of a pass.
-void callBody(Call& c, int argument, int results) {
+void callBody(GraphCall& c, int argument, int results) {
     luaL_checkstack(c.L, 10, "calls are nested too deeply");
     lua_pushvalue(c.L, argument);
     Object object{Tag::Pass, 0, {}};
@@ -73,7 +73,7 @@ void callBody(Call& c, int argument, int results) {
     lua_call(c.L, 1, results);
 }
 
-int addPass(Call& c, bool is3D) {
+int addPass(GraphCall& c, bool is3D) {
     requireNoPass(c);
     const std::string name = nameOfPart(c, 1);
     c.function_(2);
@@ -90,16 +90,16 @@ int addPass(Call& c, bool is3D) {
     return 0;
 }
 
-int pass2D(Call& c) {
+int pass2D(GraphCall& c) {
     return addPass(c, false);
 }
 
-int pass3D(Call& c) {
+int pass3D(GraphCall& c) {
     return addPass(c, true);
 }
 
 // Of the world, as long as nothing depends on other ones.
-int heights(Call& c) {
+int heights(GraphCall& c) {
     requireNoPass(c);
     if (c.recording.readsHeights) fail("heights: called after g.bottom or g.top was read");
     const auto border = [&](int argument) {
@@ -109,13 +109,13 @@ int heights(Call& c) {
     return 0;
 }
 
-int tint(Call& c) {
+int tint(GraphCall& c) {
     requireNoPass(c);
     c.recording.builder.tint(gen::Field<gen::Int>{c.field(1, Kind::Int)});
     return 0;
 }
 
-gen::DrainageSpec drainageSpec(Call& c, int argument) {
+gen::DrainageSpec drainageSpec(GraphCall& c, int argument) {
     gen::DrainageSpec spec;
     readOptions(c, argument,
                 {{"spacing", &spec.spacing},
@@ -131,7 +131,7 @@ gen::DrainageSpec drainageSpec(Call& c, int argument) {
     return spec;
 }
 
-int drainage(Call& c) {
+int drainage(GraphCall& c) {
     requireNoPass(c);
     const std::string name = nameOfPart(c, 1);
     const gen::DrainageSpec spec = drainageSpec(c, 2);
@@ -148,7 +148,7 @@ int drainage(Call& c) {
             fail("drainage: its {} function must return a Float, got {}",
                  argument == 3 ? "height" : "gradient", c.described(result));
         const Float value = c.get<Float>(result);
-        c.checkMistakes();
+        c.finish();
         return value;
     };
     const auto height = [&](gen::Pass& pass) { return recorded(pass, 3); };
@@ -159,7 +159,7 @@ int drainage(Call& c) {
     return 1;
 }
 
-gen::ShapeBlock shapeBlock(Call& c, lua_Integer number) {
+gen::ShapeBlock shapeBlock(GraphCall& c, lua_Integer number) {
     if (lua_geti(c.L, -1, number) != LUA_TTABLE)
         fail("shape: block {} is not {{name = …, rank = …}}", number);
     gen::ShapeBlock block;
@@ -171,7 +171,7 @@ gen::ShapeBlock shapeBlock(Call& c, lua_Integer number) {
     return block;
 }
 
-gen::ShapeVoxel shapeVoxel(Call& c, lua_Integer number, std::size_t blocks) {
+gen::ShapeVoxel shapeVoxel(GraphCall& c, lua_Integer number, std::size_t blocks) {
     if (lua_geti(c.L, -1, number) != LUA_TTABLE) fail("shape: voxel {} is not {{x, y, z, block}}", number);
     std::array<int, 4> values{};
     for (int k = 0; k < 4; ++k) {
@@ -187,7 +187,7 @@ gen::ShapeVoxel shapeVoxel(Call& c, lua_Integer number, std::size_t blocks) {
 }
 
 // Pushes a list that is a member of the table and returns its length.
-lua_Integer pushList(Call& c, const char* key, std::size_t most) {
+lua_Integer pushList(GraphCall& c, const char* key, std::size_t most) {
     if (lua_getfield(c.L, 1, key) != LUA_TTABLE) fail("shape: {}: expected a list", key);
     const lua_Integer length = c.listLength(lua_gettop(c.L));
     if (length > static_cast<lua_Integer>(most)) fail("shape: {}: more than {}", key, most);
@@ -195,7 +195,7 @@ lua_Integer pushList(Call& c, const char* key, std::size_t most) {
     return length;
 }
 
-int shape(Call& c) {
+int shape(GraphCall& c) {
     constexpr std::size_t kMaxBlocks = 64;
     requireNoPass(c);
     c.table(1);
@@ -222,7 +222,7 @@ std::string keyOf(std::string_view name) {
     return key;
 }
 
-void pushKind(Call& c, const gen::trees::KindRecord& kind) {
+void pushKind(GraphCall& c, const gen::trees::KindRecord& kind) {
     lua_createtable(c.L, 0, 6);
     c.set("first", gen::Int(kind.first));
     c.set("count", gen::Int(kind.count));
@@ -241,7 +241,7 @@ gen::trees::Kind kindOf(std::string_view key) {
     fail("trees: there is no kind \"{}\"", key);
 }
 
-std::vector<gen::trees::Kind> kindsOfList(Call& c, int argument) {
+std::vector<gen::trees::Kind> kindsOfList(GraphCall& c, int argument) {
     c.table(argument);
     std::vector<gen::trees::Kind> kinds;
     const lua_Integer length = c.listLength(argument);
@@ -255,7 +255,7 @@ std::vector<gen::trees::Kind> kindsOfList(Call& c, int argument) {
     return kinds;
 }
 
-int trees(Call& c) {
+int trees(GraphCall& c) {
     requireNoPass(c);
     if (c.recording.hasTrees) fail("trees: called before: keep the result of the first call");
     const std::vector<gen::trees::Kind> wanted = c.isMissing(1) ? gen::trees::allKinds() : kindsOfList(c, 1);
@@ -277,13 +277,13 @@ int trees(Call& c) {
     return 1;
 }
 
-constexpr Function kGeneratorMethods[] = {{"field", field},     {"pass2D", pass2D}, {"pass3D", pass3D},
-                                          {"heights", heights}, {"tint", tint},     {"drainage", drainage},
-                                          {"shape", shape},     {"trees", trees}};
+constexpr GraphFunction kGeneratorMethods[] = {
+    {"field", field}, {"pass2D", pass2D},     {"pass3D", pass3D}, {"heights", heights},
+    {"tint", tint},   {"drainage", drainage}, {"shape", shape},   {"trees", trees}};
 
 }  // namespace
 
-std::span<const Function> generatorMethods() {
+std::span<const GraphFunction> generatorMethods() {
     return kGeneratorMethods;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "terrane/base/text.h"
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/graph_call_internal.h"
 
 namespace terrane::lua {
 namespace {
@@ -12,15 +12,15 @@ constexpr std::string_view kKindNames[] = {"Bool", "Int", "Float", "Block", "Vec
 static_assert(std::size(kKindNames) == static_cast<std::size_t>(Kind::Count));
 
 // Completes the metatable on top of the stack. Lua calls `index` with the object and the key.
-void makeType(lua_State* L, const Function& index, const Function& newIndex) {
-    pushFunction(L, index, Tag::None);
+void makeType(lua_State* L, const GraphFunction& index, const GraphFunction& newIndex) {
+    pushFunction(L, index);
     lua_setfield(L, -2, "__index");
-    pushFunction(L, newIndex, Tag::None);
+    pushFunction(L, newIndex);
     lua_setfield(L, -2, "__newindex");
 }
 
 // Pushes the function of the type's table of methods, or fails.
-int pushMethod(Call& c, const char* table, std::string_view type) {
+int pushMethod(GraphCall& c, const char* table, std::string_view type) {
     luaL_getsubtable(c.L, LUA_REGISTRYINDEX, table);
     lua_pushvalue(c.L, 2);
     lua_rawget(c.L, -2);
@@ -36,7 +36,7 @@ int pushMethod(Call& c, const char* table, std::string_view type) {
     fail("{} has no \"{}\"{}", type, c.text(2), base::didYouMean(c.text(2), names));
 }
 
-int indexExpression(Call& c) {
+int indexExpression(GraphCall& c) {
     const Expression* e = c.expression(1);
     if (e == nullptr) c.expected(1, "an expression");
     const std::string_view key = lua_type(c.L, 2) == LUA_TSTRING ? c.text(2) : "";
@@ -50,7 +50,7 @@ int indexExpression(Call& c) {
     return pushMethod(c, "comparisons", nameOf(e->kind));
 }
 
-int indexPass(Call& c) {
+int indexPass(GraphCall& c) {
     const Object& object = c.object(1, Tag::Pass);
     const std::string_view key = lua_type(c.L, 2) == LUA_TSTRING ? c.text(2) : "";
     if (key == "step" || key == "x" || key == "y" || key == "z") {
@@ -66,7 +66,7 @@ int indexPass(Call& c) {
     return pushMethod(c, "pass methods", "a pass");
 }
 
-int indexGenerator(Call& c) {
+int indexGenerator(GraphCall& c) {
     const std::string_view key = lua_type(c.L, 2) == LUA_TSTRING ? c.text(2) : "";
     if (key == "step") {
         c.recording.readsStep = true;
@@ -82,7 +82,7 @@ int indexGenerator(Call& c) {
     return pushMethod(c, "generator methods", "the generator");
 }
 
-Variable& variableAt(Call& c) {
+Variable& variableAt(GraphCall& c) {
     const Object& object = c.object(1, Tag::Variable);
     if (!c.recording.isOpenPass(object.expression.pass)) fail("this variable belongs to another pass");
     if (lua_type(c.L, 2) != LUA_TSTRING || c.text(2) != "value")
@@ -90,32 +90,32 @@ Variable& variableAt(Call& c) {
     return c.recording.variables[object.number];
 }
 
-int indexVariable(Call& c) {
+int indexVariable(GraphCall& c) {
     const Variable& variable = variableAt(c);
     return c.push(variable.kind, {variable.read()});
 }
 
-int setVariable(Call& c) {
+int setVariable(GraphCall& c) {
     Variable& variable = variableAt(c);
     variable.write(c.parts(3, variable.kind)[0]);
     return 0;
 }
 
-int indexNothing(Call& c) {
+int indexNothing(GraphCall& c) {
     fail("{} has no members", c.described(1));
 }
 
-int refuseChange(Call& c) {
+int refuseChange(GraphCall& c) {
     fail("{} cannot be changed", c.described(1));
 }
 
-constexpr Function kIndexExpression = {"__index", indexExpression};
-constexpr Function kIndexPass = {"__index", indexPass};
-constexpr Function kIndexGenerator = {"__index", indexGenerator};
-constexpr Function kIndexVariable = {"__index", indexVariable};
-constexpr Function kSetVariable = {"__newindex", setVariable};
-constexpr Function kIndexNothing = {"__index", indexNothing};
-constexpr Function kRefuseChange = {"__newindex", refuseChange};
+constexpr GraphFunction kIndexExpression = {"__index", indexExpression};
+constexpr GraphFunction kIndexPass = {"__index", indexPass};
+constexpr GraphFunction kIndexGenerator = {"__index", indexGenerator};
+constexpr GraphFunction kIndexVariable = {"__index", indexVariable};
+constexpr GraphFunction kSetVariable = {"__newindex", setVariable};
+constexpr GraphFunction kIndexNothing = {"__index", indexNothing};
+constexpr GraphFunction kRefuseChange = {"__newindex", refuseChange};
 
 // Comparisons are methods of numbers too, and logic works on booleans: constants may stand for expressions.
 void makeLiteralTypes(lua_State* L) {
@@ -127,10 +127,10 @@ void makeLiteralTypes(lua_State* L) {
     lua_setmetatable(L, -2);
     lua_pop(L, 2);
     lua_createtable(L, 0, 3);
-    for (const Function& function : operators()) {
+    for (const GraphFunction& function : operators()) {
         const std::string_view name = function.name;
         if (name != "__band" && name != "__bor" && name != "__bnot") continue;
-        pushFunction(L, function, Tag::None);
+        pushFunction(L, function);
         lua_setfield(L, -2, function.name);
     }
     lua_pushboolean(L, 1);
@@ -167,11 +167,6 @@ const Object* objectAt(lua_State* L, int index) {
                                                : nullptr;
 }
 
-std::string_view typeNameAt(lua_State* L, int index) {
-    if (const Object* object = objectAt(L, index)) return nameOf(*object);
-    return luaL_typename(L, index);
-}
-
 void pushObject(lua_State* L, const Object& object) {
     void* memory = lua_newuserdatauv(L, sizeof(Object), 0);
     new (memory) Object(object);
@@ -180,22 +175,22 @@ void pushObject(lua_State* L, const Object& object) {
 
 void makeObjectTypes(lua_State* L) {
     luaL_getsubtable(L, LUA_REGISTRYINDEX, "comparisons");
-    addFunctions(L, comparisons(), Tag::None);
+    addFunctions(L, comparisons());
     luaL_getsubtable(L, LUA_REGISTRYINDEX, "pass methods");
-    addFunctions(L, passMethods(), Tag::Pass);
-    addFunctions(L, noiseMethods(), Tag::Pass);
+    addMethods(L, passMethods(), Tag::Pass);
+    addMethods(L, noiseMethods(), Tag::Pass);
     luaL_getsubtable(L, LUA_REGISTRYINDEX, "generator methods");
-    addFunctions(L, generatorMethods(), Tag::Generator);
+    addMethods(L, generatorMethods(), Tag::Generator);
     lua_pop(L, 3);
     for (const std::string_view name : kKindNames) {
         luaL_newmetatable(L, std::string(name).c_str());
         makeType(L, kIndexExpression, kRefuseChange);
-        addFunctions(L, operators(), Tag::None);
+        addFunctions(L, operators());
         lua_pop(L, 1);
     }
     struct Type {
         const char* name;
-        const Function &index, &newIndex;
+        const GraphFunction &index, &newIndex;
     };
     const Type types[] = {{"Variable", kIndexVariable, kSetVariable},
                           {"Field", kIndexNothing, kRefuseChange},
@@ -206,8 +201,7 @@ void makeObjectTypes(lua_State* L) {
         luaL_newmetatable(L, type.name);
         makeType(L, type.index, type.newIndex);
         // Operators on these objects fail with advice.
-        if (&type.index == &kIndexVariable || &type.index == &kIndexNothing)
-            addFunctions(L, operators(), Tag::None);
+        if (&type.index == &kIndexVariable || &type.index == &kIndexNothing) addFunctions(L, operators());
         lua_pop(L, 1);
     }
     makeLiteralTypes(L);

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "terrane/gen/language/expr.h"
-#include "terrane/lua/lua_internal.h"
+#include "terrane/lua/lua_headers.h"
 
 namespace terrane::lua {
 
@@ -90,8 +90,6 @@ struct Object {
 const Object* objectAt(lua_State* L, int index);
 // Returns the name that type() returns: "Float", "Pass", "Field".
 std::string_view nameOf(const Object& object);
-// Returns the same for any value: "number", "Float".
-std::string_view typeNameAt(lua_State* L, int index);
 
 void pushObject(lua_State* L, const Object& object);
 // Creates the operators and methods of each kind of object, for pushObject().

@@ -1,6 +1,6 @@
 // Operators of expressions, and their comparisons, which Lua's own operators cannot be: those give booleans.
 
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/graph_call_internal.h"
 
 namespace terrane::lua {
 namespace {
@@ -17,7 +17,7 @@ using gen::Int;
 }
 
 template <class T, class Operation>
-int applyTo(Call& c, std::string_view sign, Operation operation) {
+int applyTo(GraphCall& c, std::string_view sign, Operation operation) {
     if constexpr (std::is_invocable_v<Operation, T, T>) {
         // In this order: each may name a block, and the version depends on the order of names.
         const T a = c.get<T>(1), b = c.get<T>(2);
@@ -29,7 +29,7 @@ int applyTo(Call& c, std::string_view sign, Operation operation) {
 
 // The operation on two values of one kind, where the kind has it.
 template <class Operation>
-int binary(Call& c, std::string_view sign, Operation operation) {
+int binary(GraphCall& c, std::string_view sign, Operation operation) {
     const Kind kind = c.commonKind({1, 2});
     switch (kind) {
         case Kind::Bool:
@@ -51,26 +51,26 @@ int binary(Call& c, std::string_view sign, Operation operation) {
     }
 }
 
-bool isVector(Call& c, int argument) {
+bool isVector(GraphCall& c, int argument) {
     const Expression* e = c.expression(argument);
     return e != nullptr && (e->kind == Kind::Vec2 || e->kind == Kind::Vec3);
 }
 
 // clang-format off
-int add(Call& c) { return binary(c, "+", [](auto a, auto b) -> decltype(a + b) { return a + b; }); }
-int subtract(Call& c) { return binary(c, "-", [](auto a, auto b) -> decltype(a - b) { return a - b; }); }
-int equal(Call& c) { return binary(c, ":eq", [](auto a, auto b) -> decltype(a == b) { return a == b; }); }
-int notEqual(Call& c) { return binary(c, ":ne", [](auto a, auto b) -> decltype(!(a == b)) { return !(a == b); }); }
-int less(Call& c) { return binary(c, ":lt", [](auto a, auto b) -> decltype(a < b) { return a < b; }); }
-int lessEqual(Call& c) { return binary(c, ":le", [](auto a, auto b) -> decltype(a <= b) { return a <= b; }); }
-int greater(Call& c) { return binary(c, ":gt", [](auto a, auto b) -> decltype(b < a) { return b < a; }); }
-int greaterEqual(Call& c) { return binary(c, ":ge", [](auto a, auto b) -> decltype(b <= a) { return b <= a; }); }
-int divide(Call& c) { return binary(c, "/", [](auto a, auto b) -> decltype(a / b) { return a / b; }); }
-int shiftLeft(Call& c) { return binary(c, "<<", [](auto a, auto b) -> decltype(a << b) { return a << b; }); }
-int shiftRight(Call& c) { return binary(c, ">>", [](auto a, auto b) -> decltype(a >> b) { return a >> b; }); }
+int add(GraphCall& c) { return binary(c, "+", [](auto a, auto b) -> decltype(a + b) { return a + b; }); }
+int subtract(GraphCall& c) { return binary(c, "-", [](auto a, auto b) -> decltype(a - b) { return a - b; }); }
+int equal(GraphCall& c) { return binary(c, ":eq", [](auto a, auto b) -> decltype(a == b) { return a == b; }); }
+int notEqual(GraphCall& c) { return binary(c, ":ne", [](auto a, auto b) -> decltype(!(a == b)) { return !(a == b); }); }
+int less(GraphCall& c) { return binary(c, ":lt", [](auto a, auto b) -> decltype(a < b) { return a < b; }); }
+int lessEqual(GraphCall& c) { return binary(c, ":le", [](auto a, auto b) -> decltype(a <= b) { return a <= b; }); }
+int greater(GraphCall& c) { return binary(c, ":gt", [](auto a, auto b) -> decltype(b < a) { return b < a; }); }
+int greaterEqual(GraphCall& c) { return binary(c, ":ge", [](auto a, auto b) -> decltype(b <= a) { return b <= a; }); }
+int divide(GraphCall& c) { return binary(c, "/", [](auto a, auto b) -> decltype(a / b) { return a / b; }); }
+int shiftLeft(GraphCall& c) { return binary(c, "<<", [](auto a, auto b) -> decltype(a << b) { return a << b; }); }
+int shiftRight(GraphCall& c) { return binary(c, ">>", [](auto a, auto b) -> decltype(a >> b) { return a >> b; }); }
 // clang-format on
 
-int multiply(Call& c) {
+int multiply(GraphCall& c) {
     const bool first = isVector(c, 1), second = isVector(c, 2);
     if (first == second) {
         return binary(c, "*", [](auto a, auto b) -> decltype(a * b) { return a * b; });
@@ -81,7 +81,7 @@ int multiply(Call& c) {
     return c.push(c.get<gen::Vec3>(vector) * by);
 }
 
-int negate(Call& c) {
+int negate(GraphCall& c) {
     const Kind kind = c.commonKind({1});
     if (kind == Kind::Int) return c.push(-c.get<Int>(1));
     if (kind == Kind::Float) return c.push(-c.get<Float>(1));
@@ -90,93 +90,93 @@ int negate(Call& c) {
     noOperator("-", kind);
 }
 
-int floorDivide(Call& c) {
+int floorDivide(GraphCall& c) {
     const Kind kind = c.commonKind({1, 2});
     if (kind != Kind::Int) noOperator("//", kind);
     return c.push(gen::floorDivide(c.get<Int>(1), c.get<Int>(2)));
 }
 
-int modulo(Call& c) {
+int modulo(GraphCall& c) {
     const Kind kind = c.commonKind({1, 2});
     if (kind != Kind::Int) noOperator("%", kind);
     return c.push(gen::floorModulo(c.get<Int>(1), c.get<Int>(2)));
 }
 
-int power(Call& c) {
+int power(GraphCall& c) {
     const Kind kind = c.commonKind({1, 2});
     const bool isFloat = kind == Kind::Float;
     if (!isFloat) noOperator("^", kind);
     return c.push(gen::pow(c.get<Float>(1), c.get<Float>(2)));
 }
 
-int bitAnd(Call& c) {
+int bitAnd(GraphCall& c) {
     const Kind kind = c.commonKind({1, 2});
     if (kind == Kind::Bool) return c.push(c.get<Bool>(1) && c.get<Bool>(2));
     if (kind == Kind::Int) return c.push(c.get<Int>(1) & c.get<Int>(2));
     noOperator("&", kind);
 }
 
-int bitOr(Call& c) {
+int bitOr(GraphCall& c) {
     const Kind kind = c.commonKind({1, 2});
     if (kind == Kind::Bool) return c.push(c.get<Bool>(1) || c.get<Bool>(2));
     if (kind == Kind::Int) return c.push(c.get<Int>(1) | c.get<Int>(2));
     noOperator("|", kind);
 }
 
-int bitXor(Call& c) {
+int bitXor(GraphCall& c) {
     const Kind kind = c.commonKind({1, 2});
     if (kind == Kind::Int) return c.push(c.get<Int>(1) ^ c.get<Int>(2));
     noOperator("~", kind);
 }
 
-int bitNot(Call& c) {
+int bitNot(GraphCall& c) {
     const Kind kind = c.commonKind({1});
     if (kind == Kind::Bool) return c.push(!c.get<Bool>(1));
     if (kind == Kind::Int) return c.push(c.get<Int>(1) ^ Int(-1));
     noOperator("~", kind);
 }
 
-int refuseLess(Call&) {
+int refuseLess(GraphCall&) {
     fail("< and > do not compare expressions: write a:lt(b) or a:gt(b)");
 }
 
-int refuseLessEqual(Call&) {
+int refuseLessEqual(GraphCall&) {
     fail("<= and >= do not compare expressions: write a:le(b) or a:ge(b)");
 }
 
-int refuseEqual(Call&) {
+int refuseEqual(GraphCall&) {
     fail("== and ~= do not compare expressions: write a:eq(b) or a:ne(b)");
 }
 
-int refuseJoin(Call& c) {
+int refuseJoin(GraphCall& c) {
     fail(".. joins texts; this is {}", c.described(lua_isuserdata(c.L, 1) ? 1 : 2));
 }
 
-int refuseLength(Call& c) {
+int refuseLength(GraphCall& c) {
     fail("# counts lists; the length of a vector is length(v); this is {}", c.described(1));
 }
 
-int refuseCall(Call& c) {
+int refuseCall(GraphCall& c) {
     fail("{} is no function", c.described(1));
 }
 
-constexpr Function kOperators[] = {
+constexpr GraphFunction kOperators[] = {
     {"__add", add},          {"__sub", subtract},      {"__mul", multiply},     {"__div", divide},
     {"__idiv", floorDivide}, {"__mod", modulo},        {"__pow", power},        {"__unm", negate},
     {"__band", bitAnd},      {"__bor", bitOr},         {"__bxor", bitXor},      {"__bnot", bitNot},
     {"__shl", shiftLeft},    {"__shr", shiftRight},    {"__lt", refuseLess},    {"__le", refuseLessEqual},
     {"__eq", refuseEqual},   {"__concat", refuseJoin}, {"__len", refuseLength}, {"__call", refuseCall}};
 
-constexpr Function kComparisons[] = {{"lt", less},         {"le", lessEqual}, {"gt", greater},
-                                     {"ge", greaterEqual}, {"eq", equal},     {"ne", notEqual}};
+constexpr GraphFunction kComparisons[] = {{"lt", less},         {"le", lessEqual}, {"gt", greater},
+                                          {"ge", greaterEqual}, {"eq", equal},     {"ne", notEqual}};
 
 }  // namespace
 
-std::span<const Function> operators() {
+std::span<const GraphFunction> operators() {
     return kOperators;
 }
 
-std::span<const Function> comparisons() {
+std::span<const GraphFunction> comparisons() {
     return kComparisons;
 }
 

@@ -1,7 +1,7 @@
 // Methods of passes: fields and blocks, variables, branches and loops.
 #include <memory>
 
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/graph_call_internal.h"
 
 namespace terrane::lua {
 namespace {
@@ -12,7 +12,7 @@ using gen::Int;
 
 // Calls `use` with the field as a gen::Field of its type.
 template <class Use>
-int withField(Call& c, int argument, Use use) {
+int withField(GraphCall& c, int argument, Use use) {
     const Object& field = c.object(argument, Tag::Field);
     switch (field.expression.kind) {
         case Kind::Bool:
@@ -27,47 +27,47 @@ int withField(Call& c, int argument, Use use) {
 }
 
 template <class T>
-T valueFor(Call& c, gen::Field<T>, int argument) {
+T valueFor(GraphCall& c, gen::Field<T>, int argument) {
     return c.get<T>(argument);
 }
 
-int read(Call& c) {
+int read(GraphCall& c) {
     return withField(c, 1, [&](auto field) { return c.push(c.pass().read(field)); });
 }
 
 // An offset as a vector, or as two numbers.
-gen::IVec2 offset(Call& c, int argument) {
+gen::IVec2 offset(GraphCall& c, int argument) {
     if (const Expression* e = c.expression(argument); e != nullptr && e->kind == Kind::IVec2)
         return c.get<gen::IVec2>(argument);
     return {c.get<Int>(argument), c.get<Int>(argument + 1)};
 }
 
-int readAt(Call& c) {
+int readAt(GraphCall& c) {
     const gen::IVec2 at = offset(c, 2);
     return withField(c, 1, [&](auto field) { return c.push(c.pass().readAt(field, at)); });
 }
 
-int slope(Call& c) {
+int slope(GraphCall& c) {
     return c.push(c.pass().slope(gen::Field<Float>{c.field(1, Kind::Float)}));
 }
 
-int lowestBeside(Call& c) {
+int lowestBeside(GraphCall& c) {
     return c.push(c.pass().lowestBeside(gen::Field<Float>{c.field(1, Kind::Float)}));
 }
 
-int readBetween(Call& c) {
+int readBetween(GraphCall& c) {
     const gen::Field<Float> field{c.field(1, Kind::Float)};
     return c.push(c.pass().readBetween(field, c.get<gen::Vec2>(2)));
 }
 
-int set(Call& c) {
+int set(GraphCall& c) {
     return withField(c, 1, [&](auto field) {
         c.pass().set(field, valueFor(c, field, 2));
         return 0;
     });
 }
 
-int setAt(Call& c) {
+int setAt(GraphCall& c) {
     const Int z = c.get<Int>(2);
     return withField(c, 1, [&](auto field) {
         c.pass().setAt(field, z, valueFor(c, field, 3));
@@ -75,43 +75,43 @@ int setAt(Call& c) {
     });
 }
 
-int block(Call& c) {
+int block(GraphCall& c) {
     return c.push(c.get<gen::Block>(1));
 }
 
-int blockHere(Call& c) {
+int blockHere(GraphCall& c) {
     return c.push(c.pass().blockHere());
 }
 
-int blockInColumn(Call& c) {
+int blockInColumn(GraphCall& c) {
     return c.push(c.pass().blockInColumn(c.get<Int>(1)));
 }
 
-int blockAt(Call& c) {
+int blockAt(GraphCall& c) {
     const gen::IVec2 at = offset(c, 1);
     const Expression* first = c.expression(1);
     const bool isVector = first != nullptr && first->kind == Kind::IVec2;
     return c.push(c.pass().blockAt(at, c.get<Int>(isVector ? 2 : 3)));
 }
 
-int setBlock(Call& c) {
+int setBlock(GraphCall& c) {
     c.pass().setBlock(c.get<gen::Block>(1));
     return 0;
 }
 
-int stamp(Call& c) {
+int stamp(GraphCall& c) {
     return c.push(
         c.pass().stamp(gen::Field<Int>{c.field(1, Kind::Int)}, gen::Field<Int>{c.field(2, Kind::Int)}));
 }
 
 template <class T>
-Variable makeVariable(Call& c, const T& initial) {
+Variable makeVariable(GraphCall& c, const T& initial) {
     const std::shared_ptr<gen::Var<T>> variable(new gen::Var<T>(c.pass().var(initial)));
     return {kKindOf<T>, [variable] { return static_cast<T>(*variable); },
             [variable](gen::Value value) { *variable = T(value); }};
 }
 
-int var(Call& c) {
+int var(GraphCall& c) {
     auto& variables = c.recording.variables;
     if (variables.size() == kMaxVariablesInPass)
         fail("var: more than {} variables in a pass", kMaxVariablesInPass);
@@ -134,18 +134,18 @@ int var(Call& c) {
 }
 
 // Calls a function that the script passed as an argument.
-void callBack(Call& c, int argument, int results) {
+void callBack(GraphCall& c, int argument, int results) {
     luaL_checkstack(c.L, 10, "calls are nested too deeply");
     lua_pushvalue(c.L, argument);
     lua_call(c.L, 0, results);
 }
 
 // Joining goes through all variables and fields.
-void chargeBranch(Call& c) {
+void chargeBranch(GraphCall& c) {
     c.charge(static_cast<std::int64_t>(10 * (c.recording.variables.size() + c.recording.fields.size())));
 }
 
-int if_(Call& c) {
+int if_(GraphCall& c) {
     const Bool condition = c.get<Bool>(1);
     c.function_(2);
     std::function<void()> otherwise;
@@ -159,7 +159,7 @@ int if_(Call& c) {
     return 0;
 }
 
-int while_(Call& c) {
+int while_(GraphCall& c) {
     c.function_(1);
     c.function_(2);
     chargeBranch(c);
@@ -175,26 +175,26 @@ int while_(Call& c) {
     return 0;
 }
 
-constexpr Function kPassMethods[] = {{"read", read},
-                                     {"readAt", readAt},
-                                     {"slope", slope},
-                                     {"lowestBeside", lowestBeside},
-                                     {"readBetween", readBetween},
-                                     {"set", set},
-                                     {"setAt", setAt},
-                                     {"block", block},
-                                     {"blockHere", blockHere},
-                                     {"blockInColumn", blockInColumn},
-                                     {"blockAt", blockAt},
-                                     {"setBlock", setBlock},
-                                     {"stamp", stamp},
-                                     {"var", var},
-                                     {"if_", if_},
-                                     {"while_", while_}};
+constexpr GraphFunction kPassMethods[] = {{"read", read},
+                                          {"readAt", readAt},
+                                          {"slope", slope},
+                                          {"lowestBeside", lowestBeside},
+                                          {"readBetween", readBetween},
+                                          {"set", set},
+                                          {"setAt", setAt},
+                                          {"block", block},
+                                          {"blockHere", blockHere},
+                                          {"blockInColumn", blockInColumn},
+                                          {"blockAt", blockAt},
+                                          {"setBlock", setBlock},
+                                          {"stamp", stamp},
+                                          {"var", var},
+                                          {"if_", if_},
+                                          {"while_", while_}};
 
 }  // namespace
 
-std::span<const Function> passMethods() {
+std::span<const GraphFunction> passMethods() {
     return kPassMethods;
 }
 

@@ -4,42 +4,18 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "terrane/gen/language/builder.h"
-#include "terrane/lua/budget_internal.h"
-#include "terrane/lua/lua_internal.h"
+#include "terrane/lua/block_names.h"
+#include "terrane/lua/graph_limits_internal.h"
 #include "terrane/lua/object_internal.h"
-#include "terrane/lua/script.h"
+#include "terrane/lua/sandbox.h"
 
 namespace terrane::lua {
-
-// Finds the blocks of a registry by the names that scripts use, and records the names that it found.
-class BlockNames {
-  public:
-    using Aliases = std::map<std::string, std::string, std::less<>>;
-
-    // `aliases` has names in the registry by the names in the script.
-    BlockNames(const world::BlockRegistry& blocks, std::string_view pack, Aliases aliases = {})
-        : blocks_(blocks), pack_(pack), aliases_(std::move(aliases)) {}
-
-    // Returns the registry's name of a block. A block of the pack comes first. Throws ScriptError if there is
-    // none.
-    std::string find(std::string_view name);
-    // Returns the registry's names from find() and addUsed() in the order of first use, without air.
-    const std::vector<std::string>& used() const { return used_; }
-    void addUsed(std::string_view name);
-
-  private:
-    const world::BlockRegistry& blocks_;
-    std::string pack_;
-    Aliases aliases_;
-    std::vector<std::string> used_;
-};
 
 // A gen::Var without its type.
 struct Variable {
@@ -48,13 +24,11 @@ struct Variable {
     std::function<void(gen::Value)> write;
 };
 
-struct Recording {
+struct Recording : Sandbox {
     Recording(gen::GeneratorBuilder& generator, BlockNames& names) : builder(generator), blocks(names) {}
 
     gen::GeneratorBuilder& builder;
     BlockNames& blocks;
-    Budget budget{Limits{}};
-    bool prints = true;  // whether print() writes to the log
 
     // The open pass. Null outside of the functions that scripts give to pass2D, pass3D and drainage.
     gen::Pass* pass = nullptr;
@@ -69,7 +43,6 @@ struct Recording {
     bool hasTrees = false;
     bool readsStep = false;     // so that levels may record different passes
     bool readsHeights = false;  // and worlds of different heights
-    int printedLines = 0;
 
     // Returns whether a value of the pass with this number can be used now.
     bool isOpenPass(std::uint32_t number) const { return pass != nullptr && number == passNumber; }
@@ -77,7 +50,7 @@ struct Recording {
 
 // Returns the recording of a state from makeState().
 inline Recording& recordingOf(lua_State* L) {
-    return **static_cast<Recording**>(lua_getextraspace(L));
+    return static_cast<Recording&>(sandboxOf(L));
 }
 
 }  // namespace terrane::lua

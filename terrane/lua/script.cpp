@@ -3,15 +3,14 @@
 #include <algorithm>
 
 #include "terrane/base/digest.h"
+#include "terrane/base/log.h"
 #include "terrane/gen/compile/generator_graph.h"
-#include "terrane/lua/budget_internal.h"
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/graph_call_internal.h"
+#include "terrane/lua/graph_limits_internal.h"
 #include "terrane/lua/state_internal.h"
 
 namespace terrane::lua {
 namespace {
-
-constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
 
 struct RecordRequest {
     const std::string& generator;  // name of the graph
@@ -26,11 +25,11 @@ struct Recorded {
 };
 
 base::Result<Recorded> record(const Script& script, BlockNames& names, const RecordRequest& request) {
-    if (script.text.size() > kMaxScriptBytes)
-        return base::fail("{}: more than {} bytes", script.file, kMaxScriptBytes);
     gen::GeneratorBuilder builder(request.generator, request.blocks, request.graph);
     Recording recording(builder, names);
-    recording.prints = request.prints;
+    // While level 0 is recorded: else each level would repeat it.
+    if (request.prints && builder.step() == 1)
+        recording.print = [](std::string_view line) { base::logInfo("script: {}", line); };
     const StatePtr state = makeState(recording);
     if (!state) return base::fail(base::ErrorCode::OutOfResources, "{}: no memory to run it", script.file);
     if (std::string reason = runScript(state.get(), script); !reason.empty())

@@ -3,22 +3,18 @@
 //
 // Used by code that opens a world whose generator is a script. Any thread: each call has a Lua state of its
 // own. Scripts are untrusted: they reach no files, no clock and no other script, and memory, steps, time and
-// the size of the recording are limited (budget_internal.h). The same script gives the same graph on every
-// machine.
+// the size of the recording are limited (graph_limits_internal.h). The same script gives the same graph on
+// every machine.
 #pragma once
 
 #include <string>
 
 #include "terrane/base/result.h"
 #include "terrane/gen/compile/generator_graph.h"
+#include "terrane/lua/sandbox.h"
 #include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::lua {
-
-struct Script {
-    std::string text;  // source; compiled scripts are refused
-    std::string file;  // stands in errors: "generators/isles.lua:12: unknown block "gras""
-};
 
 struct ScriptNames {
     std::string generator;  // name of the graph

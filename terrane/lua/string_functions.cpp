@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/call.h"
 
 namespace terrane::lua {
 namespace {

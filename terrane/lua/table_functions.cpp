@@ -1,7 +1,8 @@
 // Functions of lists. Lua's own sort depends on the clock, and none of its own counts the steps it takes.
 #include <algorithm>
+#include <vector>
 
-#include "terrane/lua/call_internal.h"
+#include "terrane/lua/call.h"
 
 namespace terrane::lua {
 namespace {

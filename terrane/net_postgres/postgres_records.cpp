@@ -173,7 +173,7 @@ void PostgresRecords::setText(const std::string& name, const std::string& text) 
 std::uint64_t PostgresRecords::append(const std::vector<net::LoggedEdit>& edits) {
     QueuedWrite write;
     for (const net::LoggedEdit& edit : edits) {
-        write.edits.push_back({edit.timeMs, std::int64_t{edit.player}, store::keyOf(edit.chunk),
+        write.edits.push_back({edit.timeMs, net::authorNumber(edit), store::keyOf(edit.chunk),
                                net::encodeEdit(edit, contents_.ids)});
         const std::vector<world::BlockPos> blocks = blocksOf(edit);
         write.blocks.insert(write.blocks.end(), blocks.begin(), blocks.end());

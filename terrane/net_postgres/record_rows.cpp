@@ -28,10 +28,12 @@ constexpr Statement kEnds = {"SELECT newest, saved FROM history"};
 // $1, $2: range of numbers; $3: player, negative for any; $4: time; $5, $6: chunks; $7: limit.
 constexpr Statement kEditsUp = {
     "SELECT number, time, player, chunk, blocks FROM edits WHERE number > $1 AND number < $2 AND ($3 < 0 OR "
-    "player = $3) AND time < $4 AND chunk BETWEEN $5 AND $6 ORDER BY number LIMIT $7"};
+    "player = $3 OR player > 4294967295 AND (player & 4294967295 = $3 OR player >> 32 = $3)) AND time < $4 "
+    "AND chunk BETWEEN $5 AND $6 ORDER BY number LIMIT $7"};
 constexpr Statement kEditsDown = {
     "SELECT number, time, player, chunk, blocks FROM edits WHERE number > $1 AND number < $2 AND ($3 < 0 OR "
-    "player = $3) AND time < $4 AND chunk BETWEEN $5 AND $6 ORDER BY number DESC LIMIT $7"};
+    "player = $3 OR player > 4294967295 AND (player & 4294967295 = $3 OR player >> 32 = $3)) AND time < $4 "
+    "AND chunk BETWEEN $5 AND $6 ORDER BY number DESC LIMIT $7"};
 constexpr Statement kAddPlayer = {
     "INSERT INTO players (id, key, name, role, pose, ban) VALUES ($1, $2, $3, $4, $5, $6) ON CONFLICT DO "
     "NOTHING"};

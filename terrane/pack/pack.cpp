@@ -21,8 +21,8 @@ constexpr int kFormat = 1;
 constexpr std::size_t kMaxInfoText = 1024;  // bytes
 constexpr std::size_t kMaxListed = 64;      // authors, required packs
 
-constexpr std::array<std::string_view, 8> kInfoKeys{"format",      "name",    "version", "title",
-                                                    "description", "license", "authors", "requires"};
+constexpr std::array<std::string_view, 9> kInfoKeys{"format",  "name",    "version",  "title", "description",
+                                                    "license", "authors", "requires", "rules"};
 
 // The name of a file without folder and ending; empty if the path is another kind of file.
 std::string_view nameIn(std::string_view path, std::string_view folder, std::string_view ending) {
@@ -82,20 +82,44 @@ base::Result<PackInfo> readInfo(const toml::table& root, std::string_view file) 
     info.requiredPacks = textsOf(table, "requires");
     for (const std::string& name : info.requiredPacks)
         if (!isPackName(name)) table.expected(*table.node("requires"), "requires", "names of packs");
+    if (const toml::node* rules = table.node("rules")) {
+        info.rules = static_cast<int>(rules->value_exact<std::int64_t>().value_or(0));
+        if (info.rules != kRulesVersion)
+            table.expected(
+                *rules, "rules",
+                fmt::format("{}, the version of this program's interface for rules", kRulesVersion));
+    }
     if (error) return base::fail(base::ErrorCode::BadInput, "{}", base::inOneLine(*error));
     return info;
 }
 
+// Without the line of the key `rules`, which readers of packs without scripts do not know.
+std::string withoutRules(std::string_view toml) {
+    std::string kept;
+    while (!toml.empty()) {
+        const std::string_view line = toml.substr(0, std::min(toml.find('\n'), toml.size() - 1) + 1);
+        toml.remove_prefix(line.size());
+        std::string_view key = line.substr(0, line.find('='));
+        while (key.ends_with(' ') || key.ends_with('\t')) key.remove_suffix(1);
+        while (key.starts_with(' ') || key.starts_with('\t')) key.remove_prefix(1);
+        if (key != "rules" || key.size() == line.size()) kept += line;
+    }
+    return kept;
+}
+
 base::Result<void> checkSizes(const PackFiles& files, const std::string& where) {
-    std::size_t scripts = 0;
+    std::size_t generators = 0, scripts = 0;
     for (const auto& [path, data] : files) {
         const bool isScript = path.ends_with(".lua");
         const std::size_t most = isScript ? kMaxScriptBytes : kMaxTableBytes;
         if (data.size() > most && !path.ends_with(".png"))
             return base::fail(base::ErrorCode::BadInput, "{}/{}: more than {} KiB", where, path, most >> 10);
-        if (isScript && ++scripts > kMaxGenerators)
+        if (isScript) ++(path.starts_with(kScripts) ? scripts : generators);
+        if (generators > kMaxGenerators)
             return base::fail(base::ErrorCode::BadInput, "{}: more than {} generators", where,
                               kMaxGenerators);
+        if (scripts > kMaxRuleScripts)
+            return base::fail(base::ErrorCode::BadInput, "{}: more than {} scripts", where, kMaxRuleScripts);
     }
     return {};
 }
@@ -113,7 +137,15 @@ bool hasPack(const std::vector<Pack>& packs, std::string_view name) {
 
 bool isPackPath(std::string_view path) {
     return path == kInfoFile || path == "blocks.toml" || !nameIn(path, "textures/", ".png").empty() ||
-           !nameIn(path, "generators/", ".lua").empty() || !nameIn(path, "languages/", ".toml").empty();
+           !nameIn(path, "generators/", ".lua").empty() || !nameIn(path, kScripts, ".lua").empty() ||
+           !nameIn(path, "languages/", ".toml").empty();
+}
+
+PackFiles clientFiles(const PackFiles& files) {
+    PackFiles needed;
+    for (const auto& [path, data] : files)
+        if (!path.starts_with(kScripts)) needed.emplace(path, path == kInfoFile ? withoutRules(data) : data);
+    return needed;
 }
 
 base::Result<Pack> makePack(PackFiles files, std::string where) {
@@ -124,6 +156,10 @@ base::Result<Pack> makePack(PackFiles files, std::string where) {
     Pack pack{{}, {}, std::move(where)};
     const std::string file = pack.where + "/pack.toml";
     pack.info = TERRANE_TRY(readInfo(TERRANE_TRY(base::parseToml(info->second, file)), file));
+    for (const auto& [path, data] : files)
+        if (path.starts_with(kScripts) && pack.info.rules == 0)
+            return base::fail(base::ErrorCode::BadInput, "{}: {} needs rules = {} in this file", file, path,
+                              kRulesVersion);
     pack.files = std::move(files);
     return pack;
 }
@@ -148,7 +184,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kFolder = "skeleton/", kNamePlace = "PACK_NAME";
-constexpr const char* kSubfolders[] = {"textures", "generators", "languages"};
+constexpr const char* kSubfolders[] = {"textures", "generators", "languages", "scripts"};
 
 std::string withName(std::string_view text, const std::string& name) {
     std::string result;

@@ -19,6 +19,9 @@ constexpr std::size_t kMaxPackBytes = std::size_t{64} << 20;  // of all files to
 constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
 constexpr std::size_t kMaxTableBytes = std::size_t{4} << 20;  // of a TOML file
 constexpr std::size_t kMaxGenerators = 64;
+constexpr std::size_t kMaxRuleScripts = 64;
+// Version of the interface of scripts in packs (docs/scripting.md).
+constexpr int kRulesVersion = 1;
 constexpr std::size_t kMaxFileName = 31;  // bytes, without ending: a generator's PACK:NAME has at most 64
 constexpr std::size_t kMaxPackName = 32;  // bytes
 
@@ -32,6 +35,7 @@ struct PackInfo {
     std::string title, description, license;
     std::vector<std::string> authors;
     std::vector<std::string> requiredPacks;  // loaded before it
+    int rules = 0;                           // version of the interface of its scripts; 0: it has none
 };
 
 // File contents by path: "pack.toml", "textures/glow_rock.png".
@@ -47,8 +51,13 @@ bool isPackName(std::string_view text);
 bool hasPack(const std::vector<Pack>& packs, std::string_view name);
 
 // Returns whether a file of this path belongs to packs: pack.toml, blocks.toml, textures/NAME.png,
-// generators/NAME.lua, languages/CODE.toml. Others are left out.
+// generators/NAME.lua, scripts/NAME.lua, languages/CODE.toml. Others are left out.
 bool isPackPath(std::string_view path);
+constexpr std::string_view kScripts = "scripts/";
+
+// Returns the files that clients of a server need: no scripts, and a pack.toml that names none. The hash of a
+// pack is theirs, so that a change of rules needs no new pack.
+PackFiles clientFiles(const PackFiles& files);
 
 // Reads pack.toml. Errors read "WHERE/pack.toml:line: key: what is wrong".
 [[nodiscard]] base::Result<Pack> makePack(PackFiles files, std::string where);

@@ -146,7 +146,7 @@ base::Result<void> addFolder(PackFiles& files, std::size_t& bytes, const fs::pat
 base::Result<Pack> readFolder(const fs::path& folder) {
     PackFiles files;
     std::size_t bytes = 0;
-    for (const char* inside : {"", "textures/", "generators/", "languages/"})
+    for (const char* inside : {"", "textures/", "generators/", "scripts/", "languages/"})
         TERRANE_TRY(addFolder(files, bytes, folder / inside, inside));
     return makePack(std::move(files), folder.string());
 }
@@ -236,7 +236,7 @@ base::Result<PackFiles> filesOf(store::ByteView raw, const std::string& where) {
         std::string path = textOf(reader.take(pathLength));
         std::string data = textOf(reader.take(dataLength));
         if (reader.isPastEnd()) return wrong("it ends too early");
-        if (!isPackPath(path)) return wrong("a file that packs do not have");
+        if (!isPackPath(path) || path.starts_with(kScripts)) return wrong("a file that packs do not have");
         if (!files.empty() && path <= files.rbegin()->first) return wrong("files out of order");
         files.emplace_hint(files.end(), std::move(path), std::move(data));
     }
@@ -247,7 +247,7 @@ base::Result<PackFiles> filesOf(store::ByteView raw, const std::string& where) {
 }  // namespace
 
 PackHash hashOf(const Pack& pack) {
-    const store::Bytes raw = rawBytes(pack.files);
+    const store::Bytes raw = rawBytes(clientFiles(pack.files));
     PackHash hash{};
     crypto_hash_sha256(reinterpret_cast<unsigned char*>(hash.data()),
                        reinterpret_cast<const unsigned char*>(raw.data()), raw.size());
@@ -261,7 +261,7 @@ std::string hexOf(const PackHash& hash) {
 }
 
 store::Bytes archiveOf(const Pack& pack) {
-    const store::Bytes raw = rawBytes(pack.files);
+    const store::Bytes raw = rawBytes(clientFiles(pack.files));
     store::Bytes archive;
     store::appendNumber(archive, kMagic);
     store::appendNumber(archive, static_cast<std::uint32_t>(raw.size()));

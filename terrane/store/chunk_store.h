@@ -100,6 +100,10 @@ class ChunkStore : public ReadableStore {
     // nothing.
     virtual SaveNumber setMetadata(std::string_view name, std::string value) = 0;
 
+    // Until the result is destroyed, no write begins: the saves of this time are written in one transaction.
+    // Not to be held for long, and flush() not to be called meanwhile.
+    [[nodiscard]] virtual std::shared_ptr<void> together() { return nullptr; }
+
     // Blocks until all queued saves are durable, or an attempt to write failed.
     [[nodiscard]] virtual base::Result<void> flush() = 0;
     virtual SaveStatus status() = 0;

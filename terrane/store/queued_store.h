@@ -133,6 +133,7 @@ class QueuedStore : public ChunkStore {
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
     std::optional<std::string> metadata(std::string_view name) override;
     SaveNumber setMetadata(std::string_view name, std::string value) override;
+    [[nodiscard]] std::shared_ptr<void> together() override { return queue_->hold(); }
     [[nodiscard]] base::Result<void> flush() override { return queue_->flush(); }
     SaveStatus status() override { return queue_->status(); }
     void setDerivedRows(DerivedRows rows) override;

@@ -153,6 +153,18 @@ SaveBatch SaveQueue::unsaved(const std::function<void()>& look) {
     return all;
 }
 
+std::shared_ptr<void> SaveQueue::hold() {
+    const std::lock_guard lock(mutex_);
+    ++holds_;
+    return {this, [](SaveQueue* queue) {
+                {
+                    const std::lock_guard held(queue->mutex_);
+                    --queue->holds_;
+                }
+                queue->wake_.notify_all();
+            }};
+}
+
 base::Result<void> SaveQueue::flush() {
     std::unique_lock lock(mutex_);
     const SaveNumber goal = queued_;
@@ -181,6 +193,7 @@ SaveStatus SaveQueue::status() {
 
 // After a failure the number of chunks is ignored, so that a full disk is not retried at each save.
 bool SaveQueue::isDue() const {
+    if (holds_ > 0) return false;
     if (isEnding_ || requestedAttempts_ > attempts_) return true;
     return (waiting_.chunks.size() >= limits_.chunks && problem_.message.empty()) || now() >= due_;
 }
@@ -192,7 +205,7 @@ void SaveQueue::run() {
         while (!isDue()) {
             reportIfDue();
             const Clock::time_point next = std::min(due_, report_.reportAt());
-            if (next == Clock::time_point::max()) {
+            if (holds_ > 0 || next == Clock::time_point::max()) {
                 wake_.wait(lock);
             } else {
                 wake_.wait_until(lock, next);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <list>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -102,6 +103,7 @@ class SaveQueue {
     // is queued and no attempt begins or ends: what `look` finds written, with the result, is exactly what
     // was queued so far.
     SaveBatch unsaved(const std::function<void()>& look);
+    std::shared_ptr<void> hold();              // see ChunkStore::together()
     [[nodiscard]] base::Result<void> flush();  // see ChunkStore::flush()
     SaveStatus status();
 
@@ -133,6 +135,7 @@ class SaveQueue {
     Clock::time_point failingSince_;                      // while there is a problem
     bool isProblemReported_ = false;                      // reported by flush(), and nothing was added since
     bool isEnding_ = false;
+    int holds_ = 0;
     std::thread thread_;  // none with a ManualClock
 };
 

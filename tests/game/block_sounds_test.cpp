@@ -67,9 +67,9 @@ TEST_F(SessionTest, EditsAreTold) {
     std::vector<PlayerId> players;
     std::vector<BlockEdit> told;
     session_.setPlayer(kLocalPlayer, {.position = {0.5, 0.5, 66}});
-    session_.setEditListener([&](PlayerId player, std::span<const BlockEdit> edits) {
-        players.push_back(player);
-        told.insert(told.end(), edits.begin(), edits.end());
+    const Subscription heard = session_.events.edited.add([&](const BlocksEdited& event) {
+        players.push_back(event.player);
+        told.insert(told.end(), event.edits.begin(), event.edits.end());
     });
     const world::BlockPos pos{1, 0, 63};
     session_.edit({kLocalPlayer, pos, world::SetBlock{world::kAir}, {}});
@@ -84,9 +84,9 @@ TEST_F(SessionTest, WhatFlowsIsTold) {
     const world::BlockPos source{5, 5, kGroundHeight};
     session_.edit({kNoPlayer, source, world::SetBlock{contentBlock("water")}, {}});
     std::vector<BlockEdit> told;
-    session_.setEditListener([&](PlayerId player, std::span<const BlockEdit> edits) {
-        EXPECT_EQ(player, kNoPlayer);
-        told.insert(told.end(), edits.begin(), edits.end());
+    const Subscription heard = session_.events.edited.add([&](const BlocksEdited& event) {
+        EXPECT_EQ(event.player, kNoPlayer);
+        told.insert(told.end(), event.edits.begin(), event.edits.end());
     });
     session_.advance(1, {0, 0});
     EXPECT_THAT(told,

@@ -127,8 +127,8 @@ TEST_F(PermissionsTest, NoConsequenceOfAnEditBreaksABlockInAClaim) {
 // A flood is a change by the player who let the water flow, and can be found and taken back.
 TEST_F(PermissionsTest, FlowIsAChangeByWhoCausedIt) {
     std::map<PlayerId, std::size_t> changed;
-    session_.setChangeListener(
-        [&](PlayerId player, std::span<const ChangedBlock> changes) { changed[player] += changes.size(); });
+    const Subscription listening = session_.events.changed.add(
+        [&](const BlocksChanged& event) { changed[event.author.player] += event.blocks.size(); });
     const auto set = [&](world::BlockPos pos, std::string_view name, PlayerId player) {
         return session_.edit({player, pos, world::SetBlock{contentBlock(name)}, {}});
     };

@@ -96,8 +96,8 @@ TEST_F(SessionTest, ABatchAnswersEachCommand) {
 // Reports edits, uses, builds and undo with their consequences, but no changes by the world itself.
 TEST_F(SessionTest, ListenersHearWhatPlayersChanged) {
     std::vector<std::pair<PlayerId, std::vector<ChangedBlock>>> heard;
-    session_.setChangeListener([&](PlayerId player, std::span<const ChangedBlock> changes) {
-        heard.push_back({player, {changes.begin(), changes.end()}});
+    const Subscription listening = session_.events.changed.add([&](const BlocksChanged& event) {
+        heard.push_back({event.author.player, {event.blocks.begin(), event.blocks.end()}});
     });
     session_.setPlayer(7, {.position = {5.5, 5.5, kGroundHeight + 2.0}});
     session_.edit(put(kOnGround, "sand"));

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "terrane/lua/budget_internal.h"
+#include "terrane/lua/graph_limits_internal.h"
 #include "tests/lua/same_graph.h"
 
 namespace terrane::lua {

@@ -1,7 +1,7 @@
 // Limits of what a script records: work of a chunk, branches within each other, shapes.
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/language/builder.h"
-#include "terrane/lua/budget_internal.h"
+#include "terrane/lua/graph_limits_internal.h"
 #include "tests/lua/lua_fixture.h"
 
 namespace terrane::lua {

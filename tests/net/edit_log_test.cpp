@@ -18,7 +18,7 @@ world::BlockValue valueOf(std::string_view name, int state = 0) {
 class EditLogTest : public RecordsTest {
   protected:
     void log(PlayerId player, std::int64_t timeMs, const std::vector<game::ChangedBlock>& changes) {
-        const std::vector<LoggedEdit> edits = loggedEdits(next_, player, timeMs, changes);
+        const std::vector<LoggedEdit> edits = loggedEdits(next_, {player}, timeMs, changes);
         records_->append(edits);
         next_ = edits.back().number + 1;
     }
@@ -91,7 +91,7 @@ TEST_F(EditLogTest, EditsWithin256LayersKeepTheirBytes) {
     const store::BlockIdMap ids = store::BlockIdMap::make(contentBlocks(), {}).value();
     const auto bytesAt = [&](std::int32_t z) {
         const std::vector<game::ChangedBlock> changes{{{1, 0, z}, valueOf("air"), valueOf("air", 1)}};
-        return encodeEdit(loggedEdits(1, 7, 1000, changes).at(0), ids);
+        return encodeEdit(loggedEdits(1, {7}, 1000, changes).at(0), ids);
     };
     EXPECT_EQ(bytesAt(0), bytesOf({1, 0, 0, 1, 2, 0, 1, 0, 1, 1, 2, 0}));
     EXPECT_EQ(bytesAt(255)[0], std::byte{1});

@@ -272,7 +272,7 @@ TEST_F(ServerTest, OnlyAServerOpensAWorldWithEditsInTheHistoryAlone) {
     {
         const auto history = SqliteRecords::open(records, contentBlocks()).value();
         const std::vector<game::ChangedBlock> changes{{{0, 0, 60}, {}, {contentBlock("glass"), 0, nullptr}}};
-        (void)history->append(loggedEdits(1, 1, nowMs(), changes));
+        (void)history->append(loggedEdits(1, {1}, nowMs(), changes));
         ASSERT_TRUE(history->flush());
     }
     EXPECT_THAT(open(store::WorldSharing::Alone), testing::HasSubstr("start and stop `terrane serve`"));
@@ -319,8 +319,8 @@ TEST_F(ServerTest, ARollbackOfAMinuteLeavesWhatHasALaterDate) {
         (void)server.state().session.pipeline().chunkAt(world::chunkOf(pos));
         server.state().session.setBlocks(std::vector<world::PlacedBlock>{{pos, glass}});
         const std::vector<game::ChangedBlock> changes{{pos, air, glass}};
-        const auto edits =
-            loggedEdits(history.newest + 1, server.state().clients.known.byName("Ann")->id, timeMs, changes);
+        const auto edits = loggedEdits(history.newest + 1, {server.state().clients.known.byName("Ann")->id},
+                                       timeMs, changes);
         history.newest = edits.back().number;
         (void)history.records.append(edits);
     };
@@ -348,8 +348,8 @@ TEST_F(ServerTest, ARollbackOfSecondsAfterTheClockWasSetBack) {
         (void)server.state().session.pipeline().chunkAt(world::chunkOf(pos));
         server.state().session.setBlocks(std::vector<world::PlacedBlock>{{pos, glass}});
         const std::vector<game::ChangedBlock> changes{{pos, air, glass}};
-        const auto edits = loggedEdits(history.newest + 1, game::kNoPlayer,
-                                       history.stamps.at(server.state().clients.now), changes);
+        const auto edits =
+            loggedEdits(history.newest + 1, {}, history.stamps.at(server.state().clients.now), changes);
         history.newest = edits.back().number;
         (void)history.records.append(edits);
     };

@@ -142,6 +142,24 @@ TEST(SaveQueue, WhatFailedStaysAndIsTriedAgain) {
     EXPECT_EQ(recorder.batches[0].chunks.size(), 2u);
 }
 
+TEST(SaveQueue, WhatIsHeldTogetherIsOneBatch) {
+    Recorder recorder;
+    ManualClock clock;
+    SaveQueue queue(recorder.write(), {.delay = 1s, .clock = &clock});
+    queue.add({1, 2}, {numberedChunk(1), Provenance::Edited});
+    {
+        const auto held = queue.hold(), again = queue.hold();
+        clock.now += 10s;
+        clock.writeIfDue();
+        EXPECT_TRUE(recorder.batches.empty()) << "no write begins meanwhile";
+        queue.add("rules.isles", "score=i1;");
+    }
+    clock.writeIfDue();
+    ASSERT_EQ(recorder.batches.size(), 1u);
+    EXPECT_EQ(recorder.batches[0].chunks.size(), 1u);
+    EXPECT_EQ(recorder.batches[0].metadata.size(), 1u);
+}
+
 TEST(SaveQueue, WithAManualClockItHasNoThread) {
     Recorder recorder;
     ManualClock clock;

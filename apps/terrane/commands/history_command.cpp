@@ -112,7 +112,7 @@ base::Result<void> printHistory(const HistoryOptions& options) {
             isCut = true;
             return base::fail("more");
         }
-        printEdit(edit, net::nameOf(history, edit.player), *blocks, options.showsEachBlock);
+        printEdit(edit, net::authorOf(history, edit), *blocks, options.showsEachBlock);
         return {};
     };
     const auto done = history.forEachEdit(filter, net::EditOrder::NewestFirst, print);
@@ -128,7 +128,8 @@ CommandEntry addHistory(CLI::App& app) {
         app.add_subcommand("history", "Show who changed what in a shared world, the newest first");
     addWorldOption(*command, options->save, "World of a server, which may run meanwhile");
     command->get_option("--world")->required();
-    command->add_option("--player", options->player, "Only what this player changed")->type_name("NAME");
+    command->add_option("--player", options->player, "Only what this player changed, or pack:NAME")
+        ->type_name("NAME");
     command
         ->add_option_function<std::string>(
             "--area", [options](const std::string& text) { options->area = areaBetween(text); },

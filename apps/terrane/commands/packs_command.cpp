@@ -18,6 +18,7 @@
 #include "terrane/pack/installed_packs.h"
 #include "terrane/pack/pack.h"
 #include "terrane/pack/pack_files.h"
+#include "terrane/rules/rules.h"
 
 namespace terrane::app {
 namespace {
@@ -109,6 +110,7 @@ base::Result<void> checkPacks(const PacksOptions& options) {
         const auto read = TERRANE_TRY(pack::readPacks({name}));
         const pack::Pack& pack = read.front();
         warnOfSlips(pack, *content.blocks);
+        TERRANE_TRY(rules::checkScripts(content));
         const auto isOwn = [&](const world::BlockType& type) {
             return type.name.starts_with(pack.info.name + ":");
         };

@@ -18,6 +18,7 @@
 #include "terrane/net/server/server_loop.h"
 #include "terrane/net/server/server_statistics.h"
 #include "terrane/net_postgres/world_records.h"
+#include "terrane/rules/rules.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
@@ -75,6 +76,7 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     auto records = TERRANE_TRY(net_postgres::openRecords(world, *parts.blocks));
     auto host = TERRANE_TRY(net::openServerHost(std::move(parts), std::move(records.records), options.server,
                                                 fmt::format("terrane {}", TERRANE_VERSION), content));
+    const rules::Rules rules(*host.session, *opened.content.packs);
     host.state->backup.files = files;
     host.state->backup.ofDatabase = [world, content = packsOfWorld(options.world)](
                                         const std::filesystem::path& save,

@@ -48,7 +48,7 @@ std::string refusalText(game::EditResult result, const Texts& tr) {
 std::string takenBackText(const game::UndoResult& done, game::HistoryWay way, const Texts& tr) {
     using Outcome = game::UndoResult::Outcome;
     const bool isUndo = way == game::HistoryWay::Undo;
-    if (done.outcome == Outcome::Sent) return {};
+    if (done.outcome == Outcome::Sent || done.outcome == Outcome::Refused) return {};
     if (done.outcome == Outcome::NoStep) return isUndo ? tr("nothing to undo") : tr("nothing to redo");
     if (done.outcome == Outcome::NotLoaded) return tr("too far away: the place of that edit is not loaded");
     if (done.outcome == Outcome::NotAllowed) return tr("you may not change a part of it");

@@ -60,8 +60,8 @@ Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids) {
 }
 
 base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap& ids) {
-    LoggedEdit edit{
-        row.number, row.timeMs, static_cast<game::PlayerId>(row.player), store::posOf(row.chunkKey), {}, {}};
+    const game::Author author = game::authorOf(static_cast<std::uint64_t>(row.author));
+    LoggedEdit edit{row.number, row.timeMs, author.player, store::posOf(row.chunkKey), {}, {}, author.pack};
     const bool hasAnyHeights = !row.blocks.empty() && row.blocks.front() == std::byte{kAnyHeights};
     const IndexRange range = hasAnyHeights ? IndexRange::Any : IndexRange::Low;
     WireReader wire(hasAnyHeights ? row.blocks.subspan(1) : row.blocks);
@@ -107,7 +107,11 @@ std::int64_t nowMs() {
     return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
 }
 
-std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
+std::int64_t authorNumber(const LoggedEdit& edit) {
+    return static_cast<std::int64_t>(game::numberOf({edit.player, edit.pack}));
+}
+
+std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::Author author, std::int64_t timeMs,
                                     std::span<const game::ChangedBlock> changes) {
     std::map<world::ChunkPos, std::vector<const game::ChangedBlock*>> chunks;
     for (const game::ChangedBlock& change : changes) chunks[world::chunkOf(change.pos)].push_back(&change);
@@ -127,7 +131,7 @@ std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, s
                 return ChunkDifference(from, from + static_cast<std::ptrdiff_t>(count));
             };
             const auto number = first + static_cast<std::int64_t>(edits.size());
-            edits.push_back({number, timeMs, player, chunk, part(before), part(after)});
+            edits.push_back({number, timeMs, author.player, chunk, part(before), part(after), author.pack});
             begin += count;
         }
     }
@@ -190,10 +194,15 @@ std::optional<game::PlayerId> playerCalled(const History& history, std::string_v
     return std::nullopt;
 }
 
-std::string nameOf(const History& history, game::PlayerId player) {
-    if (player == game::kNoPlayer) return "the server";
-    const auto found = history.names.find(player);
-    return found == history.names.end() ? fmt::format("player {}", player) : found->second;
+std::string authorOf(const History& history, const LoggedEdit& edit) {
+    const auto nameOf = [&](game::PlayerId player) {
+        const auto found = history.names.find(player);
+        return found == history.names.end() ? fmt::format("player {}", player) : found->second;
+    };
+    if (edit.pack == game::kNoPlayer)
+        return edit.player == game::kNoPlayer ? "the server" : nameOf(edit.player);
+    if (edit.player == game::kNoPlayer) return nameOf(edit.pack);
+    return fmt::format("{} for {}", nameOf(edit.pack), nameOf(edit.player));
 }
 
 }  // namespace terrane::net

@@ -27,7 +27,11 @@ struct LoggedEdit {
     game::PlayerId player = game::kNoPlayer;
     world::ChunkPos chunk;
     ChunkDifference before, after;  // the same block indices
+    game::PlayerId pack =
+        game::kNoPlayer;  // the number of a pack among the players, if its rules changed them
 };
+// The number that the history stores for the player and the pack.
+std::int64_t authorNumber(const LoggedEdit& edit);
 
 // The current time as in LoggedEdit::timeMs.
 std::int64_t nowMs();
@@ -36,12 +40,12 @@ constexpr std::int64_t kWarnedOfDateMs = 60'000;
 // The year 9999: later times of a damaged history are not continued.
 constexpr std::int64_t kLastDateMs = 253'402'300'799'000;
 // One edit for each chunk, more if a chunk has many changed blocks. Numbers start at `first`.
-std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
+std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::Author author, std::int64_t timeMs,
                                     std::span<const game::ChangedBlock> changes);
 
 // Selects edits. A field without a value does not restrict the selection.
 struct EditFilter {
-    std::optional<game::PlayerId> player = {};
+    std::optional<game::PlayerId> player = {};  // or a pack
     std::optional<game::ColumnArea> area = {};  // contains at least one block of the edit
     std::optional<std::int64_t> beforeMs = {};  // its time is earlier
     std::int64_t afterNumber = 0;
@@ -72,7 +76,7 @@ KeyRange chunkKeys(const game::ColumnArea& area);
 Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids);
 // A row of the edit table. decodeEdit() returns ErrorCode::Damaged if the bytes are not valid.
 struct EditRow {
-    std::int64_t number = 0, timeMs = 0, player = 0, chunkKey = 0;
+    std::int64_t number = 0, timeMs = 0, author = 0, chunkKey = 0;
     ByteView blocks;
 };
 [[nodiscard]] base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap& ids);
@@ -94,6 +98,7 @@ struct History {
                                                     const world::BlockRegistry& blocks);
 
 std::optional<game::PlayerId> playerCalled(const History& history, std::string_view name);  // ignores case
-std::string nameOf(const History& history, game::PlayerId player);  // "the server" for kNoPlayer
+// "Ann", "the server", "pack:isles", "pack:isles for Ann".
+std::string authorOf(const History& history, const LoggedEdit& edit);
 
 }  // namespace terrane::net

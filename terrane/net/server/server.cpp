@@ -32,7 +32,9 @@ bool hasState(const world::Chunk& chunk) {
 // Time passes in edited chunks near players; generated blocks are at rest. These chunks and their neighbors,
 // into which liquids may flow, stay loaded.
 std::vector<world::ChunkPos> findLiveChunks(const ServerClients& clients, const EditedChunks& edited,
-                                            stream::ChunkPipeline& pipeline) {
+                                            game::Session& session) {
+    stream::ChunkPipeline& pipeline = session.pipeline();
+    const bool hasRandomTicks = !session.events.randomTickBlocks.empty();
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> near;
     forEachPlaying(clients, [&](const ServerClient& client) {
         const world::ChunkPos own = world::chunkOf(poseOf(client.pose).position);
@@ -41,7 +43,7 @@ std::vector<world::ChunkPos> findLiveChunks(const ServerClients& clients, const 
     std::vector<world::ChunkPos> live;
     for (const world::ChunkPos pos : near) {
         const world::ChunkPtr chunk = pipeline.maybeLoadChunkAt(pos);
-        if (!chunk || !hasState(*chunk)) continue;
+        if (!chunk || (!hasRandomTicks && !hasState(*chunk))) continue;
         live.push_back(pos);
         for (const world::ChunkPos beside : world::chunksWithin(pos, 1))
             if (world::isInWorld(beside)) (void)pipeline.maybeLoadChunkAt(beside);
@@ -115,20 +117,56 @@ base::Result<void> checkWorldOf(ServerRecords& records, const store::WorldIdenti
 
 }  // namespace
 
+namespace {
+
+// The number of a pack of the session among the known players, whom the history names. kNoPlayer if there is
+// no new number now.
+game::PlayerId packIdOf(ServerState& server, game::PackId pack) {
+    if (pack == game::kNoPack) return game::kNoPlayer;
+    game::PlayerId& known = server.packPlayers[pack];
+    if (known != game::kNoPlayer) return known;
+    const std::string& name = server.session.packs.at(pack - 1);
+    PublicKey key{};  // no private key belongs to a name
+    std::ranges::transform(name.substr(0, key.size()), key.begin(), [](char c) { return std::byte(c); });
+    KnownPlayers& players = server.clients.known;
+    if (const KnownPlayer* player = players.byKey(key)) return known = player->id;
+    game::PlayerId number = game::kNoPlayer;
+    if (SharedWorld* shared = server.sharing.shared) {
+        number = shared->allocatePlayerId();
+        if (number == game::kNoPlayer) return number;
+    }
+    std::string shown = "pack:" + name;
+    while (players.byName(shown)) shown += '*';
+    return known = players.add(key, shown, game::Role::Guest, number).id;
+}
+
+void listen(ServerState& server) {
+    game::Events& events = server.session.events;
+    const auto keep = [&](game::Subscription subscription) {
+        server.subscriptions.push_back(std::move(subscription));
+    };
+    keep(events.edited.add([&changed = server.changed](const game::BlocksEdited& event) {
+        for (const world::BlockEdit& edit : event.edits)
+            changed[world::chunkOf(edit.pos)].push_back(world::blockIndex(edit.pos));
+    }));
+    auto& changes = server.history.records.shared() ? events.changedAtAll : events.changed;
+    keep(changes.add([&server](const game::BlocksChanged& event) {
+        const game::Author author{event.author.player, packIdOf(server, event.author.pack)};
+        logChanges(server.history, server.sharing, author, server.clients.now, event.blocks);
+    }));
+    keep(events.said.add([&clients = server.clients](const game::Said& line) {
+        if (line.to == game::kNoPlayer) return broadcastChat(clients, {}, line.text);
+        if (ServerClient* client = playingClient(clients, line.to)) say(*client, line.text);
+    }));
+}
+
+}  // namespace
+
 base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
                                                       const ServerSettings& settings) {
     auto server = std::make_unique<ServerState>(parts, settings);
     game::Session& session = parts.session;
-    session.setEditListener(
-        [&changed = server->changed](game::PlayerId, std::span<const world::BlockEdit> edits) {
-            for (const world::BlockEdit& edit : edits)
-                changed[world::chunkOf(edit.pos)].push_back(world::blockIndex(edit.pos));
-        });
-    session.setChangeListener(
-        [&state = *server](game::PlayerId player, std::span<const game::ChangedBlock> changes) {
-            logChanges(state.history, state.sharing, player, state.clients.now, changes);
-        },
-        parts.records.shared() != nullptr);
+    listen(*server);
     TERRANE_TRY(checkWorldOf(parts.records, session.store().identity()));
     startStamps(server->history);
     const bool isRestored = TERRANE_TRY(restoreEdits(server->history, session));
@@ -195,7 +233,7 @@ void tick(ServerState& server, Time now) {
     runCommands(clients, session, history);
     continueRollbacks(history, sharing, session, server.clients.now);
     if (clients.tick % kTicksPerLiveChunks == 1) {
-        server.liveChunks = findLiveChunks(clients, edits.chunks, session.pipeline());
+        server.liveChunks = findLiveChunks(clients, edits.chunks, session);
         if (sharing.shared) requestRegions(*sharing.shared, server.liveChunks);
     }
     session.advance(std::chrono::duration<double>(kServerTick).count(),

@@ -88,6 +88,7 @@ void leave(ServerClients& clients, ServerClient& client) {
     clients.former.insert_or_assign(client.player, FormerClient{clients.now, client.buckets});
     base::logInfo("{} left", client.name);
     broadcastChat(clients, {}, client.name + " left");
+    clients.events.left.notify({client.player});
 }
 
 ServerClient* playingClient(ServerClients& clients, game::PlayerId player) {

@@ -121,7 +121,7 @@ std::optional<game::ColumnArea> areaFrom(Words words) {
                             std::max(v[1], v[3])};
 }
 
-std::string claim(KnownPlayers& players, game::Claims& claims, Words words) {
+std::string claim(KnownPlayers& players, game::Session& session, Words words) {
     const auto area = areaFrom(words.subspan(1));
     if (!area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
     const auto claimName = newName(words[0]);
@@ -139,14 +139,19 @@ std::string claim(KnownPlayers& players, game::Claims& claims, Words words) {
             made.members.push_back(player->id);
     }
     if (const auto added = players.addClaim(made); !added) return added.error().message;
-    claims = players.claims();
+    session.permissions.claims = players.claims();
+    session.events.claim.notify({made, true});
     return fmt::format("{} is claimed for {}", *claimName, words[5]);
 }
 
-std::string unclaim(KnownPlayers& players, game::Claims& claims, Words words) {
-    if (!players.removeClaim(words[0]) && !players.removeClaim(base::normalizedName(words[0])))
-        return fmt::format("there is no claim {}", words[0]);
-    claims = players.claims();
+std::string unclaim(KnownPlayers& players, game::Session& session, Words words) {
+    const game::Claim* found = players.claims().find(words[0]);
+    if (!found) found = players.claims().find(base::normalizedName(words[0]));
+    if (!found) return fmt::format("there is no claim {}", words[0]);
+    const game::Claim removed = *found;
+    players.removeClaim(removed.name);
+    session.permissions.claims = players.claims();
+    session.events.claim.notify({removed, false});
     return fmt::format("the claim {} is gone", words[0]);
 }
 
@@ -250,11 +255,9 @@ constexpr ConsoleCommand kCommands[] = {
          return setRole(s.clients, s.session.permissions, w[0], game::Role::Guest);
      }},
     {"claim", "NAME X0 Y0 X1 Y1 OWNER [MEMBER…]", "columns where only these players build", 6, kAny,
-     [](Server& s, Words w, CommandFrom) { return claim(s.clients.known, s.session.permissions.claims, w); }},
+     [](Server& s, Words w, CommandFrom) { return claim(s.clients.known, s.session, w); }},
     {"unclaim", "NAME", "ends a claim", 1, 1,
-     [](Server& s, Words w, CommandFrom) {
-         return unclaim(s.clients.known, s.session.permissions.claims, w);
-     }},
+     [](Server& s, Words w, CommandFrom) { return unclaim(s.clients.known, s.session, w); }},
     {"claims", "", "all claims", 0, 0,
      [](Server& s, Words, CommandFrom) { return claimList(s.clients.known); }},
     {"rollback", "PLAYER|* MINUTES [X0 Y0 X1 Y1]", "reverts the edits of a player, or of all with *", 2, 6,

@@ -60,9 +60,9 @@ void startStamps(ServerHistory& history) {
     warnIfBehind(history.stamps, history.stamps.newestMs, history.stamps.systemMs());
 }
 
-void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player, Time now,
+void logChanges(ServerHistory& history, SharingState& sharing, game::Author author, Time now,
                 std::span<const game::ChangedBlock> changes) {
-    std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, history.stamps.at(now), changes);
+    std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, author, history.stamps.at(now), changes);
     if (edits.empty()) return;
     if (!sharing.shared) history.newest = edits.back().number;
     history.lastWrite = history.records.append(edits);
@@ -106,9 +106,9 @@ void autosave(ServerHistory& history, SharingState& sharing, game::Session& sess
     history.nextSave = now + kHistorySaveEvery;
     std::int64_t upTo = history.newest;
     if (sharing.shared)
-        upTo = beginSharedSave(sharing, session.pipeline());
+        upTo = beginSharedSave(sharing, session);
     else
-        session.pipeline().saveAll();
+        session.queueSaves();
     const store::SaveNumber number = game::saveTimeDay(store, session.clock.timeDay);
     if (sharing.shared || history.saved < upTo) history.saving = {upTo, number};
 }
@@ -151,7 +151,7 @@ void continueRollbacks(ServerHistory& history, SharingState& sharing, game::Sess
             settling.settling.push_back(block.pos);
         }
         session.setBlocks(blocks);
-        logChanges(history, sharing, game::kNoPlayer, now, changes);
+        logChanges(history, sharing, {}, now, changes);
         if (!blocks.empty()) history.rollbacks.push_back(std::move(settling));
     }
     if (!history.rollbacks.empty()) return;

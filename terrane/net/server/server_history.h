@@ -12,7 +12,7 @@
 namespace terrane::net {
 
 // Logs the changes of a player's command, or of a rollback (game::kNoPlayer).
-void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player, Time now,
+void logChanges(ServerHistory& history, SharingState& sharing, game::Author author, Time now,
                 std::span<const game::ChangedBlock> changes);
 
 // Continues the stamps of the history's edits. Warns if the newest one is of the future.

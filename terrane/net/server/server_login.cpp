@@ -266,6 +266,7 @@ void join(ServerClients& clients, ServerClient& client, game::Session& session, 
     broadcastChat(clients, {}, client.name + " joined");
     if (!servers.empty()) send(client, otherServers(servers));
     if (!settings.welcome.empty()) say(client, settings.welcome);
+    clients.events.joined.notify({player.id, player.name});
 }
 
 // Whether the client may join. Other players may have joined since Login: its checks are repeated.

@@ -170,9 +170,12 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
         !takeOfAddress(server.clients.chatOfAddress, client.address, kChatOfAddress, server.clients.now))
         return say(client, "too many lines come from your address");
     if (message.text.empty()) return;
+    game::Session& session = server.session;
     if (message.text.front() != '/') {
+        if (!game::mayChat(session, client.player, message.text)) return;
         base::logInfo("<{}> {}", client.name, message.text);
-        return broadcastChat(server.clients, client.name, message.text);
+        broadcastChat(server.clients, client.name, message.text);
+        return session.events.chat.notify({client.player, message.text});
     }
     constexpr std::string_view kMark = "/mark ";
     if (message.text.starts_with(kMark))
@@ -182,6 +185,11 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
     if (message.text.starts_with(kUnmark) && !isOperator)
         return say(client,
                    unmarkOwn(server.places, client, std::string_view(message.text).substr(kUnmark.size())));
+    if (game::runChatCommand(session, client.player, std::string_view(message.text).substr(1))) return;
+    if (message.text == "/help" && !session.chatCommands.empty()) {
+        say(client, game::chatHelp(session.chatCommands));
+        if (!isOperator) return;
+    }
     if (!isOperator) return say(client, "only operators can give commands");
     // Without the arguments, which may contain a password.
     base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));

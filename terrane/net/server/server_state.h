@@ -94,6 +94,7 @@ struct ServerClients {
     const ServerSettings& settings;
     KnownPlayers& known;
     SharedWorld* shared;  // null: no other servers
+    game::Events& events;
     std::uint64_t tick = 0;
     Time now{};  // time of the last tick or message
     std::map<ConnectionId, ServerClient> all = {};
@@ -192,7 +193,7 @@ struct ServerState {
         : session(parts.session),
           settings(serverSettings),
           offer(parts.offer),
-          clients{settings, parts.knownPlayers, parts.records.shared()},
+          clients{settings, parts.knownPlayers, parts.records.shared(), session.events},
           history{parts.records},
           edits{EditedChunks({session.generators(), session.store(), session.world(), jobs}), parts.tiles},
           places{session.store(), parts.records.shared(), settings, PlaceOwners(parts.records)} {}
@@ -210,6 +211,8 @@ struct ServerState {
     ServerBackup backup;
     std::vector<world::ChunkPos> liveChunks;  // where plants grow and liquids flow
     bool isStopping = false;
+    std::map<game::PackId, game::PlayerId> packPlayers = {};  // see packIdOf()
+    std::vector<game::Subscription> subscriptions = {};
 
     base::JobSystem jobs{1};  // for differences and passwords; destroyed first
 };

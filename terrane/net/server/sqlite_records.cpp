@@ -21,7 +21,11 @@ namespace {
 std::string queryOf(const EditFilter& filter, EditOrder order) {
     std::string sql = fmt::format("SELECT number, time, player, chunk, blocks FROM edits WHERE number > {}",
                                   filter.afterNumber);
-    if (filter.player) sql += fmt::format(" AND player = {}", *filter.player);
+    // The upper half of the number is a pack's (game::numberOf()).
+    if (filter.player)
+        sql +=
+            fmt::format(" AND (player = {0} OR player > {1} AND (player & {1} = {0} OR player >> 32 = {0}))",
+                        *filter.player, 0xFFFFFFFFu);
     if (filter.beforeMs) sql += fmt::format(" AND time < {}", *filter.beforeMs);
     if (filter.area) {
         const KeyRange keys = chunkKeys(*filter.area);
@@ -398,7 +402,7 @@ std::uint64_t SqliteRecords::append(const std::vector<LoggedEdit>& edits) {
     std::vector<EncodedEdit> rows;
     for (const LoggedEdit& edit : edits) {
         assert(edit.number > 0 && "the server numbers edits");
-        rows.push_back({edit.number, edit.timeMs, std::int64_t{edit.player}, store::keyOf(edit.chunk),
+        rows.push_back({edit.number, edit.timeMs, authorNumber(edit), store::keyOf(edit.chunk),
                         encodeEdit(edit, file_->ids())});
     }
     return file_->write([rows = std::move(rows)](Database& database) { return insertEdits(database, rows); });

@@ -229,10 +229,11 @@ void updateSharing(SharingState& sharing, const ServerClients& clients, ServerPl
     sharing.shared->publishState(static_cast<int>(clients.playing.size()), sharing.ownSaved);
 }
 
-std::int64_t beginSharedSave(SharingState& sharing, stream::ChunkPipeline& pipeline) {
+std::int64_t beginSharedSave(SharingState& sharing, game::Session& session) {
     ++sharing.savesBegun;
-    pipeline.saveAll();
-    std::erase_if(sharing.firstUnsaved, [&](const auto& entry) { return !pipeline.isUnsaved(entry.first); });
+    session.queueSaves();
+    std::erase_if(sharing.firstUnsaved,
+                  [&](const auto& entry) { return !session.pipeline().isUnsaved(entry.first); });
     std::int64_t upTo = sharing.newest;
     for (const auto& [chunk, number] : sharing.firstUnsaved) upTo = std::min(upTo, number - 1);
     return upTo;

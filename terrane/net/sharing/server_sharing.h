@@ -86,7 +86,7 @@ void completeLoaded(SharingState& sharing, game::Session& session);
 void updateSharing(SharingState& sharing, const ServerClients& clients, ServerPlaces& places,
                    stream::ChunkPipeline& pipeline);
 // Begins a save of all changes. Returns the number up to which no edit is unsaved once it ends.
-std::int64_t beginSharedSave(SharingState& sharing, stream::ChunkPipeline& pipeline);
+std::int64_t beginSharedSave(SharingState& sharing, game::Session& session);
 // The save that returned `edit` ended.
 void endSharedSave(SharingState& sharing, std::int64_t edit);
 // The chunks in which time may pass on this server.

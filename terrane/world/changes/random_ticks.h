@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -27,5 +28,8 @@ constexpr int kTickRadius = 8;
 // world's thread.
 std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, std::uint64_t tick,
                                    std::span<const ChunkPos> chunks);
+// Returns the blocks of these kinds that the same rule picks, whatever their state.
+std::vector<BlockPos> blocksOfKinds(const World& world, const std::set<BlockId>& kinds, std::uint64_t tick,
+                                    std::span<const ChunkPos> chunks);
 
 }  // namespace terrane::world

@@ -39,7 +39,6 @@ void openPlaces(GameState& game) {
 }
 
 void beginChat(GameState& game) {
-    if (!game.remote.play) return;
     captureMouse(game, false);
     game.remote.chat.beginTyping();
 }

@@ -192,8 +192,7 @@ void drawRemoteNames(GameState& game, const Screen& screen, const render::Camera
 }
 
 void drawRemote(GameState& game, OverlayLayout& layout) {
-    if (game.remote.play && drawRemoteTexts(layout, game.remote, game.seconds, game.tr))
-        captureMouse(game, true);
+    if (drawChat(layout, game.remote, game.parts.session, game.seconds, game.tr)) captureMouse(game, true);
 }
 
 // Frees the cursor while the player types or chooses something.

@@ -26,14 +26,10 @@ std::string nameOf(world::SoundMaterial material, std::string_view action) {
 
 }  // namespace
 
-GameSounds::GameSounds(game::Session& session) : session_(session) {
-    session_.setEditListener(
-        [this](game::PlayerId player, std::span<const world::BlockEdit> edits) { onEdits(player, edits); });
-}
-
-GameSounds::~GameSounds() {
-    session_.setEditListener({});
-}
+GameSounds::GameSounds(game::Session& session)
+    : session_(session), edited_(session.events.edited.add([this](const game::BlocksEdited& event) {
+          onEdits(event.player, event.edits);
+      })) {}
 
 // Perceived loudness doubles with about ten times the power; the square of the volume approximates that.
 void GameSounds::setVolume(float volume) {

@@ -40,6 +40,7 @@ class GameSounds {
     float volume_ = 0;
     bool isAsked_ = false;      // a device was requested
     double untilAmbience_ = 0;  // seconds
+    game::Subscription edited_;
 };
 
 }  // namespace terrane::app

@@ -19,6 +19,9 @@ GameState::GameState(const GameParts& given, const GameOptions& chosen)
       preset(chosen.deviceName, chosen.isSoftwareRenderer),
       shaders(given.shaders) {
     remote.play = given.remote;
+    said = given.session.events.said.add([this](const game::Said& line) {
+        remote.chat.add({{}, line.text}, seconds);
+    });
     interaction.hotbar = game::parseHotbar(chosen.hotbar, given.session.blocks());
     hud.places = game::savedPlaces(given.session.store());
     if (!settings.hintSeen) notices.hintSeconds = Notices::kHintSeconds;

@@ -102,6 +102,7 @@ struct GameState {
     view::FrameMeter meter;
     base::TimedValue<MemoryStatistics> memory{kMemoryPause};
     std::optional<PerfLog> perfLog;
+    game::Subscription said;  // lines of the world's rules
 };
 
 bool isInMenu(const GameMenu& menu);  // the game is paused

@@ -22,6 +22,7 @@
 #include "terrane/io/open_session.h"
 #include "terrane/pack/installed_packs.h"
 #include "terrane/render/quads/draw_check.h"
+#include "terrane/rules/rules.h"
 #include "terrane/store/saves/save_path.h"
 #include "terrane/store/saves/world_list.h"
 
@@ -276,7 +277,8 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, io::OpenedWorl
             const store::WorldIdentity& identity = session.store().identity();
             const auto graph = gen::makeGenerator(identity.generator, *content.blocks, {0, identity.heights},
                                                   content.generators);
-            return graph ? base::Result<void>() : tl::unexpected(graph.error());
+            if (!graph) return tl::unexpected(graph.error());
+            return rules::checkScripts(content);
         };
     }
     hasBegun_ = true;
@@ -284,9 +286,14 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, io::OpenedWorl
     GameState state({window_, world.content(), session, world.renderer(), world.view(), world.preview(),
                      world.compiler(), shaders_, signals_, remote.get()},
                     game);
+    // A server runs the rules of its world itself.
+    const rules::Rules rules(session, remote ? std::vector<pack::Pack>() : *world.content().packs);
+    session.events.joined.notify(
+        {game::kLocalPlayer, options.remote.name.empty() ? "Player" : options.remote.name});
     host_.game = &state;
     auto played = runGame(state);
     host_.game = nullptr;
+    session.events.left.notify({game::kLocalPlayer});
     if (played && remote && !options.knownEdits.empty())
         played = writeKnownEdits(options.knownEdits, *given.store, session.blocks(), state.player.pose(),
                                  state.settings.graphics.viewDistance);

@@ -71,11 +71,30 @@ RemoteStep advanceRemote(RemoteView& remote, const world::Pose& pose, const Play
     return step;
 }
 
-bool drawRemoteTexts(OverlayLayout& layout, RemoteView& remote, double seconds, const Texts& tr) {
+namespace {
+
+// A line that is typed in the player's own world.
+void sayHere(ChatView& chat, game::Session& session, const std::string& line, double seconds,
+             const Texts& tr) {
+    if (!line.starts_with('/')) {
+        if (!game::mayChat(session, game::kLocalPlayer, line)) return;
+        chat.add({{}, line}, seconds);
+        return session.events.chat.notify({game::kLocalPlayer, line});
+    }
+    if (game::runChatCommand(session, game::kLocalPlayer, std::string_view(line).substr(1))) return;
+    const std::string help = game::chatHelp(session.chatCommands);
+    chat.add({{}, help.empty() ? tr("this world has no commands") : help}, seconds);
+}
+
+}  // namespace
+
+bool drawChat(OverlayLayout& layout, RemoteView& remote, game::Session& session, double seconds,
+              const Texts& tr) {
     constexpr double kAskEvery = 2;
     const auto line = remote.chat.draw(layout, tr, seconds);
-    if (line && !line->empty()) remote.play->world().say(*line);
-    if (!remote.showsPlayers) return line.has_value();
+    if (line && !line->empty() && remote.play) remote.play->world().say(*line);
+    if (line && !line->empty() && !remote.play) sayHere(remote.chat, session, *line, seconds, tr);
+    if (!remote.play || !remote.showsPlayers) return line.has_value();
     if (seconds >= remote.nextList) {
         remote.play->askPlayers();
         remote.nextList = seconds + kAskEvery;

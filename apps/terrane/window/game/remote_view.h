@@ -1,5 +1,5 @@
-// The window's view of a game on a server: chat, other players with names, the list of players, and the state
-// of the connection. Used on the thread of the session.
+// The chat, and the window's view of a game on a server: other players with names, the list of players, and
+// the state of the connection. Used on the thread of the session.
 #pragma once
 
 #include <chrono>
@@ -54,7 +54,9 @@ struct RemoteStep {
 RemoteStep advanceRemote(RemoteView& remote, const world::Pose& pose, const PlaySettings& settings,
                          double seconds, Notices& notices, const Texts& tr);
 
-// Draws chat, and the list of players if it is shown. True if a line was entered or cancelled.
-bool drawRemoteTexts(OverlayLayout& layout, RemoteView& remote, double seconds, const Texts& tr);
+// Draws chat, and the list of players if it is shown. A line goes to the server, or in the player's own world
+// to the rules and commands of the session. True if a line was entered or cancelled.
+bool drawChat(OverlayLayout& layout, RemoteView& remote, game::Session& session, double seconds,
+              const Texts& tr);
 
 }  // namespace terrane::app

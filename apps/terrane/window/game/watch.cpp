@@ -30,7 +30,7 @@ ContentWatch::Files ContentWatch::look() const {
     };
     for (const fs::path& pack : packs_) {
         add(pack);  // a zip file
-        for (const std::string inside : {"", "textures/", "generators/", "languages/"}) {
+        for (const std::string inside : {"", "textures/", "generators/", "scripts/", "languages/"}) {
             std::error_code error;
             for (fs::directory_iterator it(pack / inside, error), end; !error && it != end;
                  it.increment(error))

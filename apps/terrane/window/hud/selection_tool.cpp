@@ -81,6 +81,8 @@ std::string refusal(BuildOutcome::Result result) {
             return "you may not change a part of it";
         case Result::TooSoon:
             return "too many blocks in a short time: wait a moment";
+        case Result::Refused:
+            return "the rules of the world do not allow it";
         case Result::Sent:
             return "waiting for the server";
         default:

@@ -42,7 +42,7 @@ constexpr std::array kActions = {
     ActionRow{Action::HideHud, "hide-hud", trLater("Hide the interface"), Key::F8, {}, {}, kOpens},
     ActionRow{Action::FullScreen, "full-screen", trLater("Full screen"), Key::F11, {}, {}, kOpens},
     ActionRow{Action::Screenshot, "screenshot", trLater("Screenshot"), Key::F12, {}, {}, kOpens},
-    ActionRow{Action::Chat, "chat", trLater("Chat on a server"), Key::T},
+    ActionRow{Action::Chat, "chat", trLater("Chat and commands"), Key::T},
     ActionRow{Action::PlayerList, "players", trLater("List of players"), Key::Y},
     ActionRow{Action::Break, "break", trLater("Break a block"), {}, {}, Pad::RightTrigger},
     ActionRow{Action::Place, "place", trLater("Place or use a block"), {}, {}, Pad::LeftTrigger},

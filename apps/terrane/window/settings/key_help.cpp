@@ -31,7 +31,7 @@ const std::vector<Row>& rows() {
         {trLater("Ctrl+Z, Ctrl+Y"), {}, trLater("undo; redo")},
         {"B", {}, trLater("select a box: fill, replace, shapes, copy, paste, rotate, mirror, save")},
         {nullptr, {Places, Spawn}, trLater("named places; go to the spawn")},
-        {nullptr, {Chat, PlayerList}, trLater("on a server: chat; list of players")},
+        {nullptr, {Chat, PlayerList}, trLater("chat and commands; on a server the list of players")},
         {nullptr, {Earlier, Later, HoldTime}, trLater("time of day back; forward; stop or run time")},
         {nullptr, {Help, Panel}, trLater("these keys; developer panel")},
         {nullptr, {TopView, LoadingMap}, trLater("debug top view; map of loaded chunks")},

@@ -5,9 +5,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <string>
-
-#include "terrane/gen/compile/generator_graph.h"
 
 struct lua_State;
 
@@ -30,37 +27,24 @@ struct Limits {
     std::chrono::milliseconds time{100};  // thread time
 };
 
-// Limits of the generator that a script records. The larger generators of the program have some 3,000 nodes a
-// pass. All passes together have at most 100,000 nodes: Limits::steps / 40, the steps of a node (call.cpp).
-constexpr std::size_t kMaxNodesInPass = 20'000;
-constexpr std::size_t kMaxPasses = 32;
-constexpr std::size_t kMaxFields = 128;
-constexpr std::size_t kMaxVariablesInPass = 256;
-constexpr std::size_t kMaxSeedNames = 512;  // noises and random numbers: the builder looks through them
-constexpr std::size_t kMaxNameBytes = 64;
-constexpr std::size_t kMaxDrainages = 4;
-constexpr std::size_t kMaxVoxels = 200'000;  // in all shapes together
-constexpr std::size_t kMaxLoopDepth = 2;
+// A line of a script. `file` is its letter in names of chunks (sandbox.h).
+struct ScriptPlace {
+    char file = 0;
+    int line = 0;  // 0: none
+};
 
-// Work of the slowest chunk in operations, where each loop runs 1,024 rounds: 65,536 voxels, which are 256
-// layers, × 100,000 operations take some 2 s. Chunks of a taller world have more voxels with fewer
-// operations.
-constexpr double kMaxOperationsOfChunk = 65'536 * 100'000.0;
-// Heights of one region of a drainage map: (128 + 2 · 88)² cells with 4 samples each
-// (gen/drainage/drainage_curves.cpp). A chunk at a corner needs four regions.
-constexpr double kColumnsOfRegion = 369'664;
-constexpr double kRegionsOfChunk = 4;
-// Rings of chunks around one that are made before it: (2 · 6 + 1)² = 169 chunks.
-constexpr int kMaxRings = 6;
-// 3D passes whose blocks are kept for neighbors: 8 KiB each for a section that is not one block, for 256
-// chunks and more of each level, up to the most memory that gen::CacheSize has.
-constexpr std::ptrdiff_t kMaxKeptBlocks = 2;
+// Returns the place of the innermost function of a script; none while C++ alone runs.
+ScriptPlace placeOf(lua_State* L, int maxLevels);
 
 class Budget {
   public:
     enum class Spent : std::uint8_t { Nothing, Steps, Time, Memory };
 
     explicit Budget(const Limits& limits);
+
+    const Limits& limits() const { return limits_; }
+    // Gives the script its steps and its time again: it runs anew, with the memory that it still holds.
+    void refill();
 
     // Returns false once a limit is used up. Reads the clock after every 2,000 steps.
     bool charge(std::int64_t steps);
@@ -73,10 +57,10 @@ class Budget {
     std::int64_t steps() const { return steps_; }
     std::size_t peakBytes() const { return peakBytes_; }
 
-    // Sets the state whose line line() gives.
+    // Sets the state whose place place() gives.
     void watch(lua_State* state) { state_ = state; }
-    // Returns the script's line where a limit was met, 0 if none ran. Steps and time come before memory.
-    int line() const { return line_; }
+    // Returns the place in the script where a limit was met, if one ran. Steps and time come before memory.
+    ScriptPlace place() const { return place_; }
 
     // Allocates memory for Lua, as a lua_Alloc whose first argument is a Budget. Returns null beyond the
     // limits; then Lua ends the script.
@@ -92,12 +76,7 @@ class Budget {
     std::chrono::nanoseconds start_, pausedAt_{};
     std::size_t bytes_ = 0, peakBytes_ = 0;
     lua_State* state_ = nullptr;
-    int line_ = 0;
+    ScriptPlace place_;
 };
-
-// Bounds the time that a chunk of a recorded generator takes. script.cpp checks each script's. Any thread may
-// call it. Returns the reason if a chunk may take too long, else an empty string. The graph has no mistakes.
-// Stamps count once it has its table of shapes.
-std::string unboundedWork(const gen::GeneratorGraph& graph);
 
 }  // namespace terrane::lua
