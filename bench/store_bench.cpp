@@ -2,8 +2,6 @@
 // is a digest of all bytes: it changes where the result does.
 #include <benchmark/benchmark.h>
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +11,7 @@
 
 #include "bench/bench_content.h"
 #include "terrane/base/digest.h"
+#include "terrane/base/platform.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/chunks/chunk_codec.h"
@@ -105,7 +104,8 @@ BENCHMARK(generate)->Unit(benchmark::kMillisecond)->Iterations(1);
 class SaveFolder {
   public:
     SaveFolder()
-        : path_(std::filesystem::temp_directory_path() / ("terrane_bench_" + std::to_string(getpid()))) {
+        : path_(std::filesystem::temp_directory_path() /
+                ("terrane_bench_" + std::to_string(base::platform::processNumber()))) {
         std::filesystem::create_directories(path_);
     }
     ~SaveFolder() { std::filesystem::remove_all(path_); }

@@ -1,7 +1,6 @@
 #include "apps/terrane/output_files.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "terrane/base/platform.h"
 #include "terrane/store/saves/save_path.h"
 #include "terrane/store/saves/world_list.h"
 
@@ -43,7 +43,7 @@ std::string isWritable(const std::string& text) {
         return fmt::format("\"{}\" is not a regular file", text);
     if (isDatabaseOrKey(path))
         return fmt::format("\"{}\" is a database or a key, which no output replaces", text);
-    if (::access(folder.c_str(), W_OK) == 0) return {};
+    if (base::platform::isWritableFolder(folder)) return {};
     return fmt::format("\"{}\": nothing can be written in the folder {}", text, folder);
 }
 

@@ -1,11 +1,6 @@
 #include "apps/terrane/program.h"
 
-#include <execinfo.h>
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -19,6 +14,7 @@
 #include "apps/terrane/options.h"
 #include "apps/terrane/output_files.h"
 #include "terrane/base/log.h"
+#include "terrane/base/platform.h"
 #include "terrane/base/profile.h"
 #include "terrane/base/result.h"
 
@@ -26,6 +22,7 @@ namespace terrane::app {
 namespace {
 
 constexpr int kBadInput = 2;
+constexpr int kBrokenPipe = 128 + 13;  // SIGPIPE
 
 // Exceptions, such as those of a system without memory or threads left, are reported like other failures.
 base::Result<void> run(const CommandEntry& command) {
@@ -47,42 +44,24 @@ base::Result<void> runTraced(const CommandEntry& command, const std::string& tra
     return result ? written : result;
 }
 
-// A reader that ends or a limit of file sizes makes a write fail; by default it would end the program, even a
-// server with players.
-void ignoreFailedWrites() {
-    std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);
-}
-
-// Whether standard output is a pipe whose reader has ended, as in `terrane blocks | head -1`.
-bool isReaderGone() {
-    pollfd output{STDOUT_FILENO, POLLOUT, 0};
-    return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
-}
-
 // The exit code of the program: a run whose results could not be written has failed. If the reader of a pipe
 // has ended, it is the code that shells show for SIGPIPE, without a message, as of other programs.
 int withOutputWritten(int exitCode) {
     std::cout.flush();
     if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
-    if (isReaderGone()) return 128 + SIGPIPE;
+    if (base::platform::isOutputReaderGone()) return kBrokenPipe;
     base::logError("standard output cannot be written");
     return kBadInput;
 }
 
-// glibc loads the library that unwinds threads at its first use, and aborts if there is no memory left for
-// it.
-void loadUnwinder() {
-    void* frame = nullptr;
-    backtrace(&frame, 1);
-}
-
 // Inserts the default command if none is named.
-std::vector<std::string> argumentsOf(int argc, char** argv) {
-    std::vector<std::string> named = withCurrentNames({argv, static_cast<std::size_t>(argc)});
-    const std::string_view first = argc > 1 ? argv[1] : "";
+std::vector<std::string> withCommand(const std::vector<std::string>& given) {
+    std::vector<const char*> texts;
+    for (const std::string& text : given) texts.push_back(text.c_str());
+    std::vector<std::string> named = withCurrentNames(texts);
+    const std::string_view first = given.size() > 1 ? given[1] : "";
     const bool asksForHelp = first == "--help" || first == "-h" || first == "--version";
-    if ((argc < 2 || first.starts_with('-')) && !asksForHelp && defaultCommand())
+    if ((given.size() < 2 || first.starts_with('-')) && !asksForHelp && defaultCommand())
         named.insert(named.begin() + 1, defaultCommand());
     return named;
 }
@@ -126,8 +105,7 @@ std::optional<int> parseArguments(CLI::App& parser, std::span<const CommandEntry
 }  // namespace
 
 int runProgram(int argc, char** argv) try {
-    loadUnwinder();
-    ignoreFailedWrites();
+    const std::vector<std::string> given = base::platform::prepareProgram(argc, argv);
     base::setThreadName("main");
     const bool plays = defaultCommand() != nullptr;
     CLI::App parser(plays ? "Terrane: large voxel worlds. Without a command it plays."
@@ -138,7 +116,7 @@ int runProgram(int argc, char** argv) try {
     const std::vector<CommandEntry> commands = addCommands(parser);
     std::string trace;
     for (const CommandEntry& command : commands) addTraceOption(*command.parser, trace);
-    if (const auto exitCode = parseArguments(parser, commands, argumentsOf(argc, argv))) return *exitCode;
+    if (const auto exitCode = parseArguments(parser, commands, withCommand(given))) return *exitCode;
     for (const CommandEntry& command : commands) {
         if (!command.parser->parsed()) continue;
         base::Result<void> result = checkOutputs(*command.parser);

@@ -12,6 +12,7 @@
 
 #include "apps/terrane/options.h"
 #include "terrane/base/files.h"
+#include "terrane/base/platform.h"
 
 namespace terrane::app {
 
@@ -81,12 +82,6 @@ void useCurrentNames(toml::table& table) {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path absoluteFrom(const char* variable) {
-    const char* value = std::getenv(variable);
-    const fs::path path = value ? value : "";
-    return path.is_absolute() ? path : fs::path();
-}
 
 base::Result<void> applyOne(const fs::path& file, CLI::App& command, const toml::key& key,
                             const toml::node& node) {
@@ -199,13 +194,8 @@ std::string withChanges(const SettingsText& settings, const Changes& changes) {
 }  // namespace
 
 fs::path settingsPath() {
-    fs::path folder = absoluteFrom("XDG_CONFIG_HOME");
-    if (folder.empty()) {
-        folder = absoluteFrom("HOME");
-        if (folder.empty()) return {};
-        folder /= ".config";
-    }
-    return folder / "terrane" / "settings.toml";
+    const fs::path folder = base::platform::userFolder(base::platform::UserFolder::Settings);
+    return folder.empty() ? folder : folder / "terrane" / "settings.toml";
 }
 
 base::Result<void> applySettings(const fs::path& file, CLI::App& command,

@@ -1,39 +1,23 @@
 #include "terrane/base/files.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "terrane/base/output_file.h"
+#include "terrane/base/platform.h"
 
 namespace terrane::base {
 
 namespace {
 
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+// Closes a file that was read.
+struct FileCloser {
+    int descriptor;
+    ~FileCloser() { platform::closeFile(descriptor); }
 };
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-// Returns 0 or errno.
-int writeAll(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return errno;
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return ::fsync(descriptor) == 0 ? 0 : errno;
-}
 
 }  // namespace
 
@@ -41,29 +25,24 @@ Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxB
     const auto cannotRead = [&](const std::string& reason) {
         return fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), reason);
     };
-    // O_NONBLOCK: opening a pipe without a writer would block.
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const int descriptor = platform::openToRead(path);
     if (descriptor < 0) return cannotRead(systemReason(errno));
-    const File file{::fdopen(descriptor, "rb")};
-    if (!file) {
-        const int error = errno;
-        ::close(descriptor);
-        return cannotRead(systemReason(error));
-    }
-    struct stat status {};
-    if (::fstat(descriptor, &status) != 0) return cannotRead(systemReason(errno));
-    if (S_ISDIR(status.st_mode)) return cannotRead(systemReason(EISDIR));
-    if (!S_ISREG(status.st_mode)) return cannotRead("it is not a regular file");
+    const FileCloser closer{descriptor};
+    const auto status = platform::statusOf(descriptor);
+    if (!status) return cannotRead(systemReason(errno));
+    if (status->isFolder) return cannotRead(systemReason(EISDIR));
+    if (!status->isRegular) return cannotRead("it is not a regular file");
     const auto tooLarge = [&] { return cannotRead(fmt::format("it has more than {} bytes", maxBytes)); };
-    if (static_cast<std::size_t>(status.st_size) > maxBytes) return tooLarge();
+    if (status->sizeBytes > maxBytes) return tooLarge();
     std::string bytes;
     std::array<char, 65536> part;
-    while (const std::size_t partBytes = std::fread(part.data(), 1, part.size(), file.get())) {
-        if (bytes.size() + partBytes > maxBytes) return tooLarge();  // the file grows
-        bytes.append(part.data(), partBytes);
+    for (;;) {
+        const std::ptrdiff_t count = platform::readSome(descriptor, part);
+        if (count < 0) return cannotRead(systemReason(errno));
+        if (count == 0) return bytes;
+        if (bytes.size() + static_cast<std::size_t>(count) > maxBytes) return tooLarge();  // the file grows
+        bytes.append(part.data(), static_cast<std::size_t>(count));
     }
-    if (std::ferror(file.get()) != 0) return cannotRead(systemReason(errno));
-    return bytes;
 }
 
 Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes) {
@@ -90,18 +69,22 @@ Result<void> writeFiles(std::span<const FileToWrite> files) {
 }
 
 Result<void> writePrivateFile(const std::filesystem::path& path, std::string_view bytes) {
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    int error = descriptor < 0 ? errno : writeAll(descriptor, bytes);
-    if (descriptor >= 0 && ::close(descriptor) != 0 && error == 0) error = errno;
+    const int descriptor = platform::createFile(path, platform::Readers::Owner);
+    int error = descriptor < 0 ? errno : platform::writeAt(descriptor, bytes, 0);
+    if (error == 0) error = platform::flush(descriptor);
+    const int closeError = descriptor < 0 ? 0 : platform::closeFile(descriptor);
+    if (error == 0) error = closeError;
     if (error == 0) return {};
-    if (descriptor >= 0) ::unlink(path.c_str());
+    std::error_code ignored;
+    if (descriptor >= 0) std::filesystem::remove(path, ignored);
     return fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), systemReason(error));
 }
 
 Result<TemporaryFolder> TemporaryFolder::make(const std::filesystem::path& parent, std::string_view prefix) {
-    std::string path = parent / (std::string(prefix) + "XXXXXX");
-    if (::mkdtemp(path.data())) return TemporaryFolder(path);
-    return fail("{}: no folder can be made in it: {}", parent.string(), systemReason(errno));
+    std::filesystem::path made;
+    const int error = platform::makeFolder(parent / prefix, made);
+    if (error == 0) return TemporaryFolder(made);
+    return fail("{}: no folder can be made in it: {}", parent.string(), systemReason(error));
 }
 
 TemporaryFolder::~TemporaryFolder() {

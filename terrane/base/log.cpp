@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 #include <spdlog/logger.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <unistd.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/base_sink.h>
 
 #include <cassert>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <string>
 
+#include "terrane/base/platform.h"
 #include "terrane/base/text.h"
 
 namespace terrane::base {
@@ -31,10 +33,20 @@ spdlog::level::level_enum spdlogLevel(LogLevel level) {
     return spdlog::level::off;
 }
 
+// spdlog's own keeps the handle that standard error has first, on Windows.
+class StandardError : public spdlog::sinks::base_sink<std::mutex> {
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        spdlog::memory_buf_t text;
+        formatter_->format(message, text);
+        std::fwrite(text.data(), 1, text.size(), stderr);
+    }
+    void flush_() override { std::fflush(stderr); }
+};
+
 std::unique_ptr<spdlog::logger> makeLogger() {
-    auto made =
-        std::make_unique<spdlog::logger>("terrane", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    made->set_pattern("terrane: %v");
+    auto made = std::make_unique<spdlog::logger>("terrane", std::make_shared<StandardError>());
+    made->set_formatter(std::make_unique<spdlog::pattern_formatter>(
+        "terrane: %v", spdlog::pattern_time_type::local, "\n"));  // the same bytes on all systems
     return made;
 }
 
@@ -71,7 +83,7 @@ void writeLog(LogLevel level, fmt::string_view format, fmt::format_args args) {
 }  // namespace detail
 
 ProgressBar::ProgressBar(std::string what, std::size_t total)
-    : what_(std::move(what)), total_(total), isTerminal_(isatty(STDERR_FILENO) == 1) {
+    : what_(std::move(what)), total_(total), isTerminal_(platform::isTerminal(2)) {
     set(0);
 }
 

@@ -39,7 +39,6 @@ class OutputFile {
         : descriptor_(descriptor), path_(std::move(path)), temporary_(std::move(temporary)) {}
     int close();
     int nameTemporarily();
-    int rename();
 
     int descriptor_ = -1;
     std::filesystem::path path_, temporary_;  // empty while the file has no name

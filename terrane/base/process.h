@@ -1,9 +1,7 @@
 // Runs another program and waits for its end.
 #pragma once
 
-#include <array>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -25,19 +23,20 @@ struct ChildResult {
     int exitCode = 0;  // 128 + the signal that ended it
     int crashes = 0;  // runs that were ended by a fault of the program or of a driver (SIGSEGV, SIGABRT, …)
     bool timedOut = false;
-    std::string output;                  // its standard output
+    std::string output = {};             // its standard output
     double seconds = 0, cpuSeconds = 0;  // of the last run
 };
 
-// Blocks until the child ends. The child is killed if the calling thread ends. The calling process must have
-// no other threads. Returns an error if the system cannot start another process; a program that is missing or
-// cannot be run gives exit code 127, as in a shell.
+// Blocks until the child ends. The child is killed if the calling thread ends. Returns an error if the system
+// cannot start another process; a program that is missing or cannot be run gives exit code 127, as in a
+// shell.
 [[nodiscard]] Result<ChildResult> runChild(const std::vector<std::string>& command,
                                            const ChildOptions& options);
 
 // Interrupts (Ctrl+C, kill, a closed terminal) end the program between two frames, so that a game is saved
-// and no unfinished files are left. While an object exists, SIGINT, SIGTERM and SIGHUP only make
-// stopRequested() return true; SIGHUP stays ignored if it was, as with nohup. One object at a time.
+// and no unfinished files are left. While an object exists, SIGINT, SIGTERM and SIGHUP (on Windows Ctrl+C,
+// Ctrl+Break and a closed console) only make stopRequested() return true; SIGHUP stays ignored if it was, as
+// with nohup. One object at a time.
 class StopSignals {
   public:
     StopSignals();
@@ -46,11 +45,6 @@ class StopSignals {
     StopSignals& operator=(const StopSignals&) = delete;
 
     bool stopRequested() const;
-
-  private:
-    static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
-
-    std::array<void (*)(int), kSignals.size()> before_{};
 };
 
 }  // namespace terrane::base

@@ -2,6 +2,7 @@
 
 #include "terrane/base/digest.h"
 #include "terrane/base/machine.h"
+#include "terrane/base/platform.h"
 #include "terrane/net_postgres/file_records_internal.h"
 #include "terrane/net_postgres/postgres_records.h"
 #include "terrane/store/saves/save_path.h"
@@ -53,8 +54,8 @@ base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& wo
     const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
     const auto folder = store::dataFolder(store::saveEnvironment());
     if (!folder)
-        return base::fail(base::ErrorCode::NotFound,
-                          "there is no folder for the server's key: set XDG_DATA_HOME or HOME");
+        return base::fail(base::ErrorCode::NotFound, "there is no folder for the server's key: set {}",
+                          base::platform::dataFolderVariables());
     std::error_code error;
     std::filesystem::create_directories(*folder, error);
     if (error)

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "terrane/base/files.h"
+#include "terrane/base/platform.h"
 #include "terrane/store/chunks/bytes.h"
 
 namespace terrane::pack {
@@ -163,16 +164,14 @@ base::Result<Pack> readPack(const fs::path& path) {
 base::Result<fs::path> findPack(std::string_view nameOrPath, std::span<const fs::path> folders) {
     std::error_code ignored;
     const fs::path given(nameOrPath);
-    if (nameOrPath.find('/') != std::string_view::npos || nameOrPath.ends_with(".zip") ||
-        !isPackName(nameOrPath)) {
+    if (given.has_parent_path() || nameOrPath.ends_with(".zip") || !isPackName(nameOrPath)) {
         if (fs::exists(given, ignored)) return given;
         return base::fail(base::ErrorCode::NotFound, "there is no content pack \"{}\"", nameOrPath);
     }
     if (folders.empty())
-        return base::fail(
-            base::ErrorCode::NotFound,
-            "there is no content pack \"{}\", as there is no folder of packs: set XDG_DATA_HOME or HOME",
-            nameOrPath);
+        return base::fail(base::ErrorCode::NotFound,
+                          "there is no content pack \"{}\", as there is no folder of packs: set {}",
+                          nameOrPath, base::platform::dataFolderVariables());
     std::string looked;
     for (const fs::path& folder : folders) {
         for (const std::string& name : {std::string(nameOrPath), std::string(nameOrPath) + ".zip"})

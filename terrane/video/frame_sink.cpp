@@ -1,21 +1,15 @@
 #include "terrane/video/frame_sink.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <string>
 #include <system_error>
 #include <vector>
 
-extern char** environ;
+#include "terrane/base/platform.h"
 
 namespace terrane::video {
 
@@ -78,43 +72,33 @@ std::vector<std::string> argumentsFor(const std::filesystem::path& output, const
             "file:" + output.string()};
 }
 
-struct Child {
-    pid_t id = -1;
+namespace platform = base::platform;
+
+struct Encoder {
+    platform::Child process;
+    bool isRunning = false;
     int input = -1;  // a pipe to its standard input
     File messages;   // its standard error
 };
 
-// Starts ffmpeg in its own process group: an interrupt from the keyboard reaches only this program, which
-// then ends ffmpeg.
-int spawn(std::vector<std::string> arguments, int readEnd, int messages, pid_t& id) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, readEnd, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    const int error = posix_spawnp(&id, pointers[0], &actions, &attributes, pointers.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    return error;
-}
-
-base::Result<Child> start(const std::vector<std::string>& arguments) {
-    Child child;
-    child.messages.reset(std::tmpfile());
-    std::array<int, 2> ends{};
-    if (!child.messages || pipe2(ends.data(), O_CLOEXEC) != 0)
-        return base::fail("ffmpeg: cannot be started: {}", base::systemReason(errno));
-    const int error = spawn(arguments, ends[0], fileno(child.messages.get()), child.id);
-    close(ends[0]);
-    child.input = ends[1];
-    if (error == 0) return child;
-    close(child.input);
+// An interrupt from the keyboard reaches only this program, which then ends ffmpeg.
+base::Result<Encoder> start(const std::vector<std::string>& arguments) {
+    Encoder encoder;
+    encoder.messages.reset(std::tmpfile());
+    const auto ends = encoder.messages ? platform::makePipe() : std::nullopt;
+    if (!ends) return base::fail("ffmpeg: cannot be started: {}", base::systemReason(errno));
+    const int error = platform::startChild({.command = arguments,
+                                            .folder = {},
+                                            .environment = {},
+                                            .input = (*ends)[0],
+                                            .errors = fileno(encoder.messages.get()),
+                                            .isIndependent = true},
+                                           encoder.process);
+    platform::closeFile((*ends)[0]);
+    encoder.input = (*ends)[1];
+    encoder.isRunning = error == 0;
+    if (error == 0) return encoder;
+    platform::closeFile(encoder.input);
     if (error == ENOENT)
         return base::fail(
             "ffmpeg: not found; install it (Debian: apt-get install ffmpeg) or use --frames-dir");
@@ -123,33 +107,23 @@ base::Result<Child> start(const std::vector<std::string>& arguments) {
 
 class VideoFile : public FrameSink {
   public:
-    VideoFile(Child child, std::filesystem::path file, std::filesystem::path unfinished)
-        : child_(std::move(child)), file_(std::move(file)), unfinished_(std::move(unfinished)) {}
+    VideoFile(Encoder encoder, std::filesystem::path file, std::filesystem::path unfinished)
+        : encoder_(std::move(encoder)), file_(std::move(file)), unfinished_(std::move(unfinished)) {}
 
     ~VideoFile() override {
-        if (child_.id < 0) return;
-        kill(child_.id, SIGKILL);
+        if (!encoder_.isRunning) return;
+        platform::killChild(encoder_.process);
         end();
     }
 
     base::Result<void> add(const base::Image& frame) override {
-        const std::uint8_t* at = frame.rgba.data();
-        for (std::size_t left = frame.rgba.size(); left > 0;) {
-            const ssize_t written = write(child_.input, at, left);
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) return failed();  // a broken pipe: ffmpeg's messages have the reason
-            at += written;
-            left -= static_cast<std::size_t>(written);
-        }
-        return {};
+        const std::string_view bytes(reinterpret_cast<const char*>(frame.rgba.data()), frame.rgba.size());
+        // A broken pipe: ffmpeg's messages have the reason.
+        return platform::writePipe(encoder_.input, bytes) == 0 ? base::Result<void>() : failed();
     }
 
     base::Result<void> finish() override {
-        close(child_.input);
-        child_.input = -1;
-        int status = 0;
-        waitForChild(status);
-        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return failed();
+        if (wait() != 0) return failed();
         std::error_code error;
         std::filesystem::rename(unfinished_, file_, error);
         if (!error) return {};
@@ -158,18 +132,16 @@ class VideoFile : public FrameSink {
     }
 
   private:
-    void waitForChild(int& status) {
-        while (waitpid(child_.id, &status, 0) < 0 && errno == EINTR) {
-        }
-        child_.id = -1;
+    // Ends ffmpeg's input and waits for it: its exit code.
+    int wait() {
+        platform::closeFile(std::exchange(encoder_.input, -1));
+        encoder_.isRunning = false;
+        return platform::waitForChild(encoder_.process).exitCode;
     }
 
     // Waits for ffmpeg and removes its file.
     void end() {
-        if (child_.input >= 0) close(child_.input);
-        child_.input = -1;
-        int ignoredStatus = 0;
-        if (child_.id >= 0) waitForChild(ignoredStatus);
+        if (encoder_.isRunning) wait();
         std::error_code ignored;
         std::filesystem::remove(unfinished_, ignored);
     }
@@ -182,8 +154,8 @@ class VideoFile : public FrameSink {
     std::string lastMessage() const {
         std::array<char, 1024> line{};
         std::string last = "it reported no reason";
-        std::rewind(child_.messages.get());
-        while (std::fgets(line.data(), line.size(), child_.messages.get())) {
+        std::rewind(encoder_.messages.get());
+        while (std::fgets(line.data(), line.size(), encoder_.messages.get())) {
             std::string text = line.data();
             text.erase(text.find_last_not_of("\r\n ") + 1);
             if (!text.empty()) last = text;
@@ -191,7 +163,7 @@ class VideoFile : public FrameSink {
         return last;
     }
 
-    Child child_;
+    Encoder encoder_;
     std::filesystem::path file_, unfinished_;
 };
 
@@ -208,10 +180,9 @@ base::Result<std::unique_ptr<FrameSink>> openVideo(const std::filesystem::path& 
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return base::fail("{}: cannot be written: it is not a regular file", file.string());
     std::filesystem::path unfinished = file;
-    unfinished += fmt::format(".part{}", getpid());
-    std::signal(SIGPIPE, SIG_IGN);  // so that writing to an ended ffmpeg returns an error
-    auto child = TERRANE_TRY(start(argumentsFor(unfinished, container, format)));
-    return std::make_unique<VideoFile>(std::move(child), file, unfinished);
+    unfinished += fmt::format(".part{}", platform::processNumber());
+    auto encoder = TERRANE_TRY(start(argumentsFor(unfinished, container, format)));
+    return std::make_unique<VideoFile>(std::move(encoder), file, unfinished);
 }
 
 }  // namespace terrane::video

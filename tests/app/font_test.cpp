@@ -12,7 +12,7 @@ class Font : public testing::Test {
     void TearDown() override { ImGui::DestroyContext(); }
 
     // Makes the font as ImguiLayer does.
-    static const ImFont& made(const char* file) {
+    static const ImFont& made(const std::string& file) {
         addFont(13, file);
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
@@ -23,8 +23,8 @@ class Font : public testing::Test {
 };
 
 TEST_F(Font, TheSystemsFontHasTheLettersOfAllLanguages) {
-    const char* file = fontFile();
-    if (!file) GTEST_SKIP() << "no DejaVu Sans on this system";
+    const std::string file = fontFile();
+    if (file.empty()) GTEST_SKIP() << "no DejaVu Sans on this system";
     const ImFont& font = made(file);
     for (const ImWchar letter : {0x11B, 0x159, 0x16F, 0xDF, 0x201E, 0x2026})
         EXPECT_NE(font.FindGlyphNoFallback(letter), nullptr) << letter;
@@ -32,7 +32,7 @@ TEST_F(Font, TheSystemsFontHasTheLettersOfAllLanguages) {
 }
 
 TEST_F(Font, WithoutItLettersLoseTheirAccents) {
-    const ImFont& font = made(nullptr);
+    const ImFont& font = made("");
     for (const auto& [letter, plain] : {std::pair(0x11B, 'e'), {0x158, 'R'}, {0x201E, '"'}}) {
         const ImFontGlyph* shown = font.FindGlyphNoFallback(static_cast<ImWchar>(letter));
         ASSERT_NE(shown, nullptr) << plain;

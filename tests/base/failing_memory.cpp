@@ -4,6 +4,10 @@
 #include <cstdlib>
 #include <new>
 
+#ifdef _WIN32  // functions of its own for aligned memory
+#include <malloc.h>
+#endif
+
 namespace {
 
 std::atomic<bool> isFailing = false, failed = false;
@@ -23,10 +27,26 @@ bool fails() {
     throw std::bad_alloc();
 }
 
+#ifdef _WIN32
+void* alignedMemory(std::size_t step, std::size_t bytes) {
+    return _aligned_malloc(bytes, step);
+}
+void freeAligned(void* memory) {
+    _aligned_free(memory);
+}
+#else
+[[maybe_unused]] void* alignedMemory(std::size_t step, std::size_t bytes) {
+    return std::aligned_alloc(step, (bytes + step) / step * step);
+}
+[[maybe_unused]] void freeAligned(void* memory) {
+    std::free(memory);
+}
+#endif
+
 [[maybe_unused]] void* allocateAligned(std::size_t bytes, std::align_val_t alignment) {
     const auto step = static_cast<std::size_t>(alignment);
     if (fails()) throw std::bad_alloc();
-    if (void* memory = std::aligned_alloc(step, (bytes + step) / step * step)) return memory;
+    if (void* memory = alignedMemory(step, bytes)) return memory;
     throw std::bad_alloc();
 }
 
@@ -76,16 +96,16 @@ void operator delete[](void* memory, std::size_t) noexcept {
     std::free(memory);
 }
 void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
+    freeAligned(memory);
 }
 void operator delete[](void* memory, std::align_val_t) noexcept {
-    std::free(memory);
+    freeAligned(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
+    freeAligned(memory);
 }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
+    freeAligned(memory);
 }
 #endif
 

@@ -1,10 +1,10 @@
 // A folder for one test, removed with all its content at the end.
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <string>
+
+#include "terrane/base/platform.h"
 
 namespace terrane::base {
 
@@ -12,7 +12,8 @@ class TempFolder {
   public:
     // Tests of one process run one after the other, so the process number is enough.
     TempFolder()
-        : path_(std::filesystem::temp_directory_path() / ("terrane_test_" + std::to_string(getpid()))) {
+        : path_(std::filesystem::temp_directory_path() /
+                ("terrane_test_" + std::to_string(platform::processNumber()))) {
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);
     }

@@ -1,7 +1,4 @@
 // A server on a real port: players over TLS, and clients that send something else or nothing.
-#include <sys/resource.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
@@ -224,10 +221,7 @@ TEST_F(SocketsTest, WhoIsSentAwayStaysAway) {
 
 TEST_F(SocketsTest, OpenConnectionsKeepNobodyOut) {
     const std::size_t count = atDepth(600, 10'000);
-    rlimit files{};
-    getrlimit(RLIMIT_NOFILE, &files);
-    files.rlim_cur = files.rlim_max;
-    setrlimit(RLIMIT_NOFILE, &files);
+    base::raiseOpenFileLimit();
     start();
     LinkPlayer& ann = addPlayer("Ann");
     ASSERT_TRUE(runUntil([&] { return ann.isLoaded(); }));

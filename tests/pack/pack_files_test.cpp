@@ -130,6 +130,7 @@ TEST_F(PackFilesTest, TheSkeletonWorks) {
 }
 
 TEST_F(PackFilesTest, NoHalfOfASkeletonStays) {
+    if (!base::FileSizeLimit::kWorks) GTEST_SKIP() << "this system has no limit of file sizes";
     {
         const base::FileSizeLimit full(100);
         EXPECT_FALSE(writeSkeleton(folder_ / "mine"));

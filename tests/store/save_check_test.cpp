@@ -1,8 +1,10 @@
 #include "terrane/store/saves/save_check.h"
 
 #include <gmock/gmock.h>
+#ifndef _WIN32
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
 
 #include <csignal>
 
@@ -52,6 +54,8 @@ TEST_F(SaveCheckTest, GoodSave) {
     EXPECT_EQ(folder_.fileCount(), 1);
 }
 
+#ifndef _WIN32  // no fork(): tools/kill_test.py does the same with programs
+
 // Saves edits and settings as fast as it can until it is killed.
 [[noreturn]] void saveForEver(const std::filesystem::path& path, const world::BlockRegistry& registry,
                               int started) {
@@ -89,6 +93,8 @@ TEST_F(SaveCheckTest, WhileAnotherProgramSaves) {
     EXPECT_EQ(after.inUse, "");
     EXPECT_EQ(after.chunks, 80u);
 }
+
+#endif
 
 // A save left by a killed program: the log has one transaction per chunk.
 class LogCheckTest : public SaveCheckTest {

@@ -2,7 +2,9 @@
 #include "terrane/store/saves/save_file.h"
 
 #include <gmock/gmock.h>
+#ifndef _WIN32
 #include <sys/wait.h>
+#endif
 
 #include <fstream>
 #include <optional>
@@ -344,6 +346,8 @@ TEST_F(SaveFileTest, ReadersShare) {
     EXPECT_THAT(errorOfWriting(), HasSubstr("open in another program"));
 }
 
+#ifndef _WIN32  // no fork(): store.kill_test does the same with programs
+
 // The lock ends with the process; its writes stay.
 TEST_F(SaveFileTest, TheNextProgramAfterAKilledOne) {
     const pid_t child = ::fork();
@@ -362,6 +366,8 @@ TEST_F(SaveFileTest, TheNextProgramAfterAKilledOne) {
     ASSERT_TRUE(store) << store.error().message;
     EXPECT_EQ(*(*store)->load({4, 4}).chunk, *numberedChunk(77));
 }
+
+#endif
 
 TEST_F(SaveFileTest, RecreateKeepsACopy) {
     makeSave();

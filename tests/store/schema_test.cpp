@@ -55,6 +55,7 @@ TEST_F(MigrationTest, AllOrNothing) {
 }
 
 TEST_F(MigrationTest, ACopyThatFailsLeavesNothing) {
+    if (!base::FileSizeLimit::kWorks) GTEST_SKIP() << "this system has no limit of file sizes";
     {
         const base::FileSizeLimit limit(8192);  // two of about six pages
         EXPECT_FALSE(migrateTo(3));

@@ -1,7 +1,6 @@
 // terrane bench: makes all measurements of docs/performance.md in one run. tools/bench_report.py makes tables
 // and plots from the results.
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -18,6 +17,7 @@
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
+#include "terrane/base/platform.h"
 #include "terrane/base/process.h"
 #include "terrane/base/text.h"
 
@@ -141,8 +141,7 @@ base::Result<fs::path> outputFolder(const std::string& output) {
 }
 
 base::Result<void> bench(BenchOptions& options) {
-    // By process id: if the file is replaced meanwhile, all runs still use the same program.
-    const fs::path program = fmt::format("/proc/{}/exe", ::getpid());
+    const fs::path program = base::platform::programFile();
     auto folder = TERRANE_TRY(options.lists ? fs::temp_directory_path() : outputFolder(options.output));
     const auto work = TERRANE_TRY(base::TemporaryFolder::make(folder, ".terrane-bench-"));
     auto info = TERRANE_TRY(programInfo(program, work.path()));

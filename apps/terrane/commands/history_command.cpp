@@ -1,4 +1,6 @@
 // terrane history: lists who changed what in a shared world, even while its server runs.
+#include <fmt/chrono.h>
+
 #include <algorithm>
 #include <ctime>
 #include <limits>
@@ -37,12 +39,7 @@ game::ColumnArea areaBetween(const std::string& text) {
 }
 
 std::string textOfTime(std::int64_t milliseconds) {
-    const std::time_t seconds = milliseconds / 1000;
-    std::tm parts{};
-    gmtime_r(&seconds, &parts);
-    std::array<char, 32> text{};
-    std::strftime(text.data(), text.size(), "%F %T", &parts);
-    return text.data();
+    return fmt::format("{:%F %T}", fmt::gmtime(static_cast<std::time_t>(milliseconds / 1000)));
 }
 
 // "glass", or "several" for blocks of different kinds.

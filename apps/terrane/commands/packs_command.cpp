@@ -12,6 +12,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
+#include "terrane/base/platform.h"
 #include "terrane/base/text.h"
 #include "terrane/content/language.h"
 #include "terrane/io/open_session.h"
@@ -129,11 +130,11 @@ base::Result<std::filesystem::path> newFolder(const std::string& nameOrPath) {
         return base::fail(base::ErrorCode::BadInput,
                           "packs init: a name has 1 to {} characters of a-z, 0-9 and _, got \"{}\"",
                           pack::kMaxPackName, base::printable(path.filename().string()));
-    if (nameOrPath.find('/') != std::string::npos) return path;
+    if (path.has_parent_path()) return path;
     const auto folders = pack::packFolders();
     if (folders.empty())
-        return base::fail(base::ErrorCode::NotFound,
-                          "packs init: neither XDG_DATA_HOME nor HOME is set: name a path, ./{}", nameOrPath);
+        return base::fail(base::ErrorCode::NotFound, "packs init: set {}, or name a path, ./{}",
+                          base::platform::dataFolderVariables(), nameOrPath);
     return folders.front() / path;
 }
 

@@ -1,8 +1,5 @@
 #include "apps/terrane/window/error_window.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -10,6 +7,7 @@
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/ui_style.h"
 #include "apps/terrane/window/widgets.h"
+#include "terrane/base/platform.h"
 #include "terrane/base/process.h"
 #include "terrane/gpu/framebuffer.h"
 
@@ -39,9 +37,9 @@ bool drawError(Window& window, ImVec2 screen, const std::string& error, const Te
 }  // namespace
 
 bool isStandardErrorRead() {
-    struct stat status {};
-    if (fstat(STDERR_FILENO, &status) == 0 && S_ISFIFO(status.st_mode)) return true;
-    return isatty(STDIN_FILENO) == 1 || isatty(STDOUT_FILENO) == 1 || isatty(STDERR_FILENO) == 1;
+    namespace platform = base::platform;
+    return platform::isPipe(2) || platform::isTerminal(0) || platform::isTerminal(1) ||
+           platform::isTerminal(2);
 }
 
 WindowOptions errorWindowOptions() {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -15,15 +16,16 @@
 #include "apps/terrane/window/input.h"
 #include "apps/terrane/window/ui_style.h"
 #include "apps/terrane/window/widgets.h"
+#include "terrane/base/platform.h"
 
 namespace terrane::app {
 
 namespace {
 
-// Paths of DejaVu Sans: Debian, Fedora, Arch.
-constexpr std::array<const char*, 3> kFontFiles = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                                   "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                                                   "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+// Paths of DejaVu Sans: beside the program, as in the archive for Windows; Debian, Fedora, Arch.
+constexpr std::array<const char*, 4> kFontFiles = {
+    "DejaVuSans.ttf", "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf"};
 
 // Latin letters with accents, dashes, quotation marks, the ellipsis and arrows. Dear ImGui reads the list
 // whenever it makes the texture, so it must stay in memory.
@@ -39,19 +41,21 @@ constexpr std::array<std::pair<ImWchar, char>, 26> kPlainLetters = {
 
 }  // namespace
 
-const char* fontFile() {
+std::string fontFile() {
+    const std::filesystem::path folder = base::platform::programFile().parent_path();
     for (const char* file : kFontFiles)
-        if (std::ifstream(file).good()) return file;
-    return nullptr;
+        if (const auto path = folder / file; std::ifstream(path).good()) return path.string();
+    return {};
 }
 
-void addFont(float pixels, const char* file) {
+void addFont(float pixels, const std::string& file) {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     ImFontConfig config;
     config.SizePixels = std::round(pixels);
     fonts.Clear();
     config.OversampleH = 2;
-    if (file && fonts.AddFontFromFileTTF(file, config.SizePixels, &config, kLetters.data())) return;
+    if (!file.empty() && fonts.AddFontFromFileTTF(file.c_str(), config.SizePixels, &config, kLetters.data()))
+        return;
     fonts.AddFontDefault(&config);
 }
 

@@ -10,12 +10,12 @@
 
 namespace terrane::app {
 
-// The font of the user interface: the system's, if it has one with the letters of all languages.
-// The system's font file; null if it has none of the known ones.
-const char* fontFile();
-// Replaces Dear ImGui's fonts by a font `pixels` high; its own font if `file` is null. Recreate the font
+// The file of the user interface's font, beside the program or of the system; empty if there is none of the
+// known ones. It has the letters of all languages.
+std::string fontFile();
+// Replaces Dear ImGui's fonts by a font `pixels` high; its own font if `file` is empty. Recreate the font
 // texture afterwards.
-void addFont(float pixels, const char* file);
+void addFont(float pixels, const std::string& file);
 // Call after the texture is made: letters that the font lacks are drawn without their accents.
 void replaceMissingLetters();
 

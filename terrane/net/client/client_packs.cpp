@@ -10,6 +10,7 @@
 
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
+#include "terrane/base/platform.h"
 #include "terrane/base/text.h"
 #include "terrane/net/wire/wire.h"
 #include "terrane/pack/installed_packs.h"
@@ -113,10 +114,8 @@ void writeToCache(const ClientPacks& packs, const PackOffer& offer, const store:
 }  // namespace
 
 fs::path packCacheFolder() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    if (cache && fs::path(cache).is_absolute()) return fs::path(cache) / "terrane" / "packs";
-    const char* home = std::getenv("HOME");
-    return home && *home ? fs::path(home) / ".cache" / "terrane" / "packs" : fs::path();
+    const fs::path cache = base::platform::userFolder(base::platform::UserFolder::Cache);
+    return cache.empty() ? cache : cache / "terrane" / "packs";
 }
 
 base::Result<std::vector<std::uint8_t>> missingPacks(ClientPacks& packs, const WorldOffer& offer) {

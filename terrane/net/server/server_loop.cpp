@@ -4,6 +4,7 @@
 #include <boost/asio/error.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/streambuf.hpp>
@@ -12,8 +13,10 @@
 #include <chrono>
 #include <cstdio>
 #include <istream>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -70,6 +73,23 @@ constexpr std::chrono::milliseconds kLeastListening{5};
 // After a longer stall, ticks are skipped instead of made up for.
 constexpr int kMaxTicksBehind = 4;
 
+void runLine(ServerState& server, const std::string& line) {
+    const std::string answer = runConsoleLine(server, line);
+    if (answer.empty()) return;
+    for (std::size_t at = 0; at <= answer.size();) {
+        const std::size_t end = std::min(answer.find('\n', at), answer.size());
+        base::printLine("{}", std::string_view(answer).substr(at, end - at));
+        at = end + 1;
+    }
+    std::fflush(stdout);  // a reader may wait at the other end of a pipe
+}
+
+void reportLongLine() {
+    base::logError("a line of more than {} bytes is no command", kMaxConsoleLine);
+}
+
+#ifdef BOOST_ASIO_HAS_POSIX_STREAM_DESCRIPTOR
+
 // Reads lines of standard input if it can be waited for: a terminal or pipe, not a file.
 class Console {
   public:
@@ -95,21 +115,10 @@ class Console {
         std::istream lines(&buffer_);
         std::string line;
         std::getline(lines, line);
-        if (isTooLong && !skipsLine_)
-            base::logError("a line of more than {} bytes is no command", kMaxConsoleLine);
-        if (!isTooLong && !skipsLine_) run(line);
+        if (isTooLong && !skipsLine_) reportLongLine();
+        if (!isTooLong && !skipsLine_) runLine(server_, line);
         skipsLine_ = isTooLong;  // ignore the rest of the line, too
         read();
-    }
-    void run(const std::string& line) {
-        const std::string answer = runConsoleLine(server_, line);
-        if (answer.empty()) return;
-        for (std::size_t at = 0; at <= answer.size();) {
-            const std::size_t end = std::min(answer.find('\n', at), answer.size());
-            base::printLine("{}", std::string_view(answer).substr(at, end - at));
-            at = end + 1;
-        }
-        std::fflush(stdout);  // a reader may wait at the other end of a pipe
     }
 
     ServerState& server_;
@@ -117,6 +126,53 @@ class Console {
     asio::streambuf buffer_{kMaxConsoleLine};
     bool skipsLine_ = false;
 };
+
+#else
+
+// Reads lines of standard input on a thread: Windows can wait for neither consoles nor pipes together with
+// sockets. The thread stays in its read when the server ends.
+class Console {
+  public:
+    Console(asio::io_context& context, ServerState& server) : target_(std::make_shared<Target>()) {
+        target_->context = &context;
+        target_->server = &server;
+        std::thread([target = target_] { readLines(*target, target); }).detach();
+    }
+    ~Console() {
+        const std::lock_guard lock(target_->mutex);
+        target_->context = nullptr;
+    }
+
+  private:
+    struct Target {
+        std::mutex mutex;
+        asio::io_context* context = nullptr;  // null: the server has ended
+        ServerState* server = nullptr;
+    };
+
+    static void readLines(Target& target, const std::shared_ptr<Target>& owner) {
+        std::string line;
+        bool isTooLong = false;
+        for (int c = std::getchar(); c != EOF; c = std::getchar()) {
+            if (c != '\n') {
+                isTooLong = isTooLong || line.size() == kMaxConsoleLine;
+                if (!isTooLong && c != '\r') line += static_cast<char>(c);
+                continue;
+            }
+            const std::lock_guard lock(target.mutex);
+            if (!target.context) return;
+            asio::post(*target.context, [owner, line, isTooLong] {
+                isTooLong ? reportLongLine() : runLine(*owner->server, line);
+            });
+            line.clear();
+            isTooLong = false;
+        }
+    }
+
+    std::shared_ptr<Target> target_;
+};
+
+#endif
 
 double millisecondsSince(Time start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

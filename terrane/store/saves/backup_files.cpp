@@ -1,14 +1,11 @@
 #include "terrane/store/saves/backup_files.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "terrane/base/platform.h"
 #include "terrane/store/saves/save_file.h"
 #include "terrane/store/saves/world_list.h"
 
@@ -17,6 +14,7 @@ namespace {
 
 using base::ErrorCode;
 namespace fs = std::filesystem;
+namespace platform = base::platform;
 
 fs::path folderOf(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -49,15 +47,6 @@ base::Result<void> checkIsOther(const fs::path& target, const fs::path& world) {
     return {};
 }
 
-base::Result<void> syncToDisk(const fs::path& path, int flags) {
-    const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-    int error = descriptor < 0 ? errno : 0;
-    if (error == 0 && ::fsync(descriptor) != 0) error = errno;
-    if (descriptor >= 0) ::close(descriptor);
-    if (error == 0) return {};
-    return base::fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), base::systemReason(error));
-}
-
 void removePart(const fs::path& folder, const fs::path& target) {
     std::error_code ignored;
     for (const fs::path& file : filesOf(folder / target.filename())) fs::remove(file, ignored);
@@ -76,7 +65,7 @@ base::Result<void> checkBackup(const fs::path& target, const fs::path& world) {
     for (const fs::path& file : filesOf(target))
         if (file != companionPath(target, "-lock") && isPresent(file))
             return base::fail(ErrorCode::BadInput, "{}: exists; a backup replaces no file", file.string());
-    if (::access(folder.c_str(), W_OK) == 0) return {};
+    if (platform::isWritableFolder(folder)) return {};
     return base::fail(ErrorCode::Io, "{}: nothing can be written in the folder {}", target.string(),
                       folder.string());
 }
@@ -124,12 +113,14 @@ base::Result<void> BackupFiles::finish() {
     for (std::size_t k = from.size(); k-- > 0;)
         if (isPresent(from[k])) moves.emplace_back(from[k], to[k]);
     for (const auto& [part, place] : moves) {
-        TERRANE_TRY(syncToDisk(part, O_RDONLY));
+        if (const int error = platform::flushFile(part); error != 0)
+            return base::fail(ErrorCode::Io, "{}: cannot be written: {}", part.string(),
+                              base::systemReason(error));
         if (isPresent(place))
             return base::fail(ErrorCode::BadInput, "{}: exists; a backup replaces no file", place.string());
     }
     TERRANE_TRY(moveAll(moves));
-    (void)syncToDisk(folderOf(target_), O_RDONLY | O_DIRECTORY);  // not all file systems support it
+    (void)platform::flushFolder(folderOf(target_));
     return {};
 }
 

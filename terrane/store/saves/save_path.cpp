@@ -1,17 +1,19 @@
 #include "terrane/store/saves/save_path.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "terrane/base/names.h"
+#include "terrane/base/platform.h"
 
 namespace terrane::store {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::string_view kSchemeEnd = "://";
 
@@ -29,7 +31,7 @@ bool isMeantAsDatabase(std::string_view text) {
 WorldLocation worldLocation(std::string text) {
     using Kind = WorldLocation::Kind;
     const bool isUrl = text.find(kSchemeEnd) != std::string::npos || isMeantAsDatabase(text);
-    const bool isFile = text.find('/') != std::string::npos || text.ends_with(".sqlite");
+    const bool isFile = fs::path(text).has_parent_path() || text.ends_with(".sqlite");
     return {isUrl ? Kind::Url : isFile ? Kind::File : Kind::Name, std::move(text)};
 }
 
@@ -73,17 +75,6 @@ std::uintmax_t bytesOnDisk(const WorldLocation& location) {
     return bytes;
 }
 
-namespace {
-
-namespace fs = std::filesystem;
-
-std::string environment(const char* name) {
-    const char* value = std::getenv(name);
-    return value ? value : "";
-}
-
-}  // namespace
-
 base::Result<void> checkSaveName(std::string_view name) {
     const auto isForbidden = [](char c) {
         const auto byte = static_cast<unsigned char>(c);
@@ -97,6 +88,8 @@ base::Result<void> checkSaveName(std::string_view name) {
     if (std::any_of(name.begin(), name.end(), isForbidden))
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: the name of a save has neither slashes nor control characters", name);
+    if (!base::platform::canBeFileName(name))
+        return base::fail(base::ErrorCode::BadInput, "{:?}: the system has no files with such a name", name);
     if (name.front() == '.' || name.front() == ' ')
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: the name of a save begins with neither a dot nor a space", name);
@@ -104,15 +97,13 @@ base::Result<void> checkSaveName(std::string_view name) {
 }
 
 SaveEnvironment saveEnvironment() {
-    return {.xdgDataHome = environment("XDG_DATA_HOME"), .home = environment("HOME")};
+    return {.data = base::platform::userFolder(base::platform::UserFolder::Data)};
 }
 
 base::Result<fs::path> dataFolder(const SaveEnvironment& places) {
-    // The XDG specification says to ignore relative paths.
-    if (fs::path(places.xdgDataHome).is_absolute()) return fs::path(places.xdgDataHome) / "terrane";
-    if (fs::path(places.home).is_absolute()) return fs::path(places.home) / ".local/share/terrane";
-    return base::fail(base::ErrorCode::NotFound,
-                      "no folder for worlds: neither XDG_DATA_HOME nor HOME names an absolute path");
+    if (!places.data.empty()) return places.data / "terrane";
+    return base::fail(base::ErrorCode::NotFound, "no folder for worlds: set {} to an absolute path",
+                      base::platform::dataFolderVariables());
 }
 
 base::Result<void> checkNewName(std::string_view name) {

@@ -32,10 +32,9 @@ WorldLocation worldLocation(std::string text);
 // Returns the bytes on disk of the file and its log; 0 if there is none.
 [[nodiscard]] std::uintmax_t bytesOnDisk(const WorldLocation& location);
 
-// The environment from which paths are made. Strings are empty if the environment lacks them.
+// The environment from which paths are made.
 struct SaveEnvironment {
-    std::string xdgDataHome;  // $XDG_DATA_HOME
-    std::string home;         // $HOME
+    std::filesystem::path data;  // base::platform::userFolder(); empty if there is none
     std::filesystem::path legacyFolder =
         "save";  // folder of saves up to version 0.1, below the working directory
 };
@@ -43,9 +42,8 @@ struct SaveEnvironment {
 // Returns the values of this process.
 SaveEnvironment saveEnvironment();
 
-// Returns the folder of players' worlds and other files: $XDG_DATA_HOME/terrane, or
-// $HOME/.local/share/terrane if that variable is not an absolute path. Absolute; may not exist. Fails if
-// neither variable is set.
+// Returns the folder of players' worlds and other files, "terrane" in the user's data. Absolute; may not
+// exist.
 [[nodiscard]] base::Result<std::filesystem::path> dataFolder(const SaveEnvironment& places);
 
 constexpr std::size_t kMaxSaveName = 100;  // bytes; file systems allow 255, including extensions

@@ -1,7 +1,6 @@
 #include "terrane/store/sqlite/sqlite.h"
 
 #include <sqlite3.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <cassert>
@@ -115,7 +114,9 @@ tl::unexpected<base::Error> failure(const std::string& path, sqlite3* database) 
 // "file:" and the path, with characters that are special in a URI escaped.
 std::string uriOf(const std::filesystem::path& path, bool isImmutable) {
     std::string uri = path.is_absolute() ? "file://" : "file:";  // "//" starts an authority, which is empty
-    for (const char c : path.string()) {
+    const std::string text = path.generic_string();
+    if (path.is_absolute() && !text.starts_with('/')) uri += '/';  // before a drive of Windows
+    for (const char c : text) {
         if (c == '?' || c == '#' || c == '%') {
             uri += fmt::format("%{:02x}", static_cast<unsigned char>(c));
         } else {
@@ -315,10 +316,9 @@ base::Result<void> Transaction::commit() {
 
 namespace {
 
-std::optional<std::pair<dev_t, ino_t>> fileIdentity(const std::filesystem::path& path) {
-    struct stat found {};
-    if (::stat(path.c_str(), &found) != 0) return std::nullopt;
-    return std::pair(found.st_dev, found.st_ino);
+std::optional<base::platform::FileIdentity> fileIdentity(const std::filesystem::path& path) {
+    const auto status = base::platform::statusOf(path, base::platform::Links::Follow);
+    return status ? std::optional(status->identity) : std::nullopt;
 }
 
 }  // namespace

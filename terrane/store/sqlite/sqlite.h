@@ -2,8 +2,6 @@
 // its statements are used by one thread at a time, and trust nothing in the file.
 #pragma once
 
-#include <sys/types.h>
-
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "terrane/base/platform.h"
 #include "terrane/base/result.h"
 #include "terrane/store/chunks/bytes.h"
 
@@ -178,7 +177,7 @@ class OpenFiles {
   private:
     struct Opened {
         std::filesystem::path path;
-        std::optional<std::pair<dev_t, ino_t>> identity;  // none: there is no file
+        std::optional<base::platform::FileIdentity> identity;  // none: there is no file
     };
     std::array<Opened, 2> files_;
 };
