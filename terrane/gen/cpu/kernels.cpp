@@ -155,7 +155,8 @@ void branch(const Instruction& i, TileContext& c, const RowList& rows) {
     }
     if (taken.count > 0) run(b.then, c, taken);
     if (notTaken.count > 0) run(b.otherwise, c, notTaken);
-    // The allocator gives most results the rows of a value that ends here: rows that keep it need no blending.
+    // The allocator gives most results the rows of a value that ends here: rows that keep it need no
+    // blending.
     for (const PhiMove& move : b.phis) {
         const RowList& changed = move.dst == move.otherwise ? taken : move.dst == move.then ? notTaken : rows;
         if (changed.count > 0) blend(b.condition, move, c.arena, changed);
