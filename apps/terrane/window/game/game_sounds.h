@@ -16,7 +16,6 @@ class GameSounds {
     // Listens to the edits of `session`, which outlives this. A volume above 0 opens the device in the
     // background; without a device the game is silent.
     explicit GameSounds(game::Session& session);
-    ~GameSounds();
     GameSounds(const GameSounds&) = delete;
     GameSounds& operator=(const GameSounds&) = delete;
 
