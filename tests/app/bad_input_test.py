@@ -127,7 +127,7 @@ CASES = [
     ((*RENDER, "--lens", "1"), "--lens cannot be used with --renderer quads"),
     ((*RENDER, "--renderer", "path", "--frames", "3"), "--frames cannot be used with --renderer path"),
     ((*RENDER, "--renderer", "path", "--view", "depth"), "--view cannot be used with --renderer path"),
-    ((*RENDER, "--renderer", "path", "--resume", "/nowhere/a.samples"), "/nowhere"),
+    ((*RENDER, "--renderer", "path", "--resume", "{folder}/missing/a.samples"), "missing"),
     (("render", "--scene", "ocean", "-o", "{folder}/a.exr"), "only --renderer path writes EXR files"),
     ((*RENDER, "--preset", "best"), '"best"'),
     ((*RENDER, "--shadows", "512"), '"512"'),
