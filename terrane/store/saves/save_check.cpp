@@ -186,10 +186,12 @@ base::Result<void> checkIndex(Database& database) {
                       compare);
 }
 
-// Reports an error that stops one check as damage; the other checks continue.
-bool isGood(CheckReport& report, const base::Result<void>& checked) {
-    if (!checked) report.fileProblems.push_back(checked.error().message);
-    return checked.has_value();
+// Reports an error that stops one check as damage; the other checks continue. Without memory all of them end.
+base::Result<bool> isGood(CheckReport& report, const base::Result<void>& checked) {
+    if (checked) return true;
+    if (checked.error().code == base::ErrorCode::OutOfResources) return tl::unexpected(checked.error());
+    report.fileProblems.push_back(checked.error().message);
+    return false;
 }
 
 std::uint64_t sizeOf(std::filesystem::path path, const char* ending) {
@@ -230,10 +232,11 @@ base::Result<CheckReport> checkSave(const std::filesystem::path& path, const wor
     report.identity = file->identity;
     report.unknownBlocks = file->ids.unknown();
     if (file->inUse.empty()) checkLog(file->database.path(), report);
-    const bool hasChunks = isGood(report, checkChunks(*file, report));
-    const bool hasQuarantine = isGood(report, countQuarantined(file->database, report));
-    const bool hasIndex = isGood(report, checkIndex(file->database));
-    if (hasChunks && hasQuarantine && hasIndex) isGood(report, checkPages(file->database, report));
+    const bool hasChunks = TERRANE_TRY(isGood(report, checkChunks(*file, report)));
+    const bool hasQuarantine = TERRANE_TRY(isGood(report, countQuarantined(file->database, report)));
+    const bool hasIndex = TERRANE_TRY(isGood(report, checkIndex(file->database)));
+    if (hasChunks && hasQuarantine && hasIndex)
+        TERRANE_TRY(isGood(report, checkPages(file->database, report)));
     return report;
 }
 
