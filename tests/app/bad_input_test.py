@@ -209,8 +209,8 @@ CASES = [
     (("map", "--radius", "0", "-o", "{folder}/missing/a.png"), "{folder}/missing"),
     (("map", "--radius", "0", "-o", "/dev/null"), '"/dev/null" is not a regular file'),
     (("render", "--scene", "cave", "-o", "/dev/full"), '"/dev/full" is not a regular file'),
-    *(((*command, "-o", "{folder}/" + name), f'/{name}" does not end in .png or .exr (no other format is written)')
-      for command in (("render", "--scene", "ocean"), ("map", "--radius", "0"))
+    *(((*command, "-o", "{folder}/" + name), f'/{name}" does not end in {endings} (no other format is written)')
+      for command, endings in ((("render", "--scene", "ocean"), ".png or .exr"), (("map", "--radius", "0"), ".png"))
       for name in ("x.jpg", "x.png.jpeg", "png", "x.")),
     *((("dump", "--area", "0,0,1,1", "-o", "{folder}/" + name), f'/{name}" does not end in .npy (no')
       for name in ("x.npz", "x.png", "x")),
