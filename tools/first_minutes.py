@@ -23,7 +23,7 @@ from first_minutes.page import Page, PageError
 
 PACKAGES = ("pybind11-dev", "python3-dev", "python3-numpy", "libglfw3-dev", "sqlite3", "zip", "xvfb", "xdotool")
 PAGES = {"player": windows.player, "library": without_windows.library, "game": windows.game, "server": windows.server,
-         "pack": windows.pack, "python": without_windows.python}
+         "pack": windows.pack, "rules": windows.rules, "python": without_windows.python}
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
 
 

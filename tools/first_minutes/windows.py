@@ -182,3 +182,39 @@ def pack(page):
         shared.wait_for_line("on port 25560")
         shared.process.send_signal(signal.SIGINT)
         shared.end()
+
+
+def rules(page):
+    page.do(f'export PATH="{page.source}/build:$PATH"')
+    with page.step(1):
+        page.run("terrane packs init goldrush")
+        page.run("cd ~/.local/share/terrane/packs/goldrush")
+        page.replace("pack.toml", "# " + page.quoted("rules = 1"), "rules = 1")
+    with Display(SCREEN) as display:
+        with page.step(2):
+            page.write("scripts/gold.lua", page.code("lua"))
+            page.run("terrane packs check goldrush")
+            game = Running(page, page.quoted("terrane play --content goldrush --world goldrush --watch"), display).open()
+            game.wait_for(lambda: setting(page.home / ".local/share/terrane/goldrush.sqlite", "camera"), "no world")
+            take_block(game, page.quoted("gold ore"))
+            game.look_down()
+            game.hold(3)
+            game.hold(1)
+            game.press("Escape")
+        with page.step(3):
+            page.write("scripts/gold.lua", "\n" + page.code("lua", 1), mode="a")
+            page.run("terrane packs check goldrush")
+        with page.step(4):
+            page.write("scripts/gold.lua", page.code("lua", 2))
+            page.run("terrane packs check goldrush")
+            time.sleep(4 * PAUSE)
+            game.press("t")
+            game.type(page.quoted("/race"))
+            game.press("Return")
+            time.sleep(4 * PAUSE)
+        quit_window(game)
+    with page.step(5):
+        shared = Running(page, page.quoted("terrane serve --content goldrush --world goldrush"))
+        shared.wait_for_line("on port 25560")
+        shared.process.send_signal(signal.SIGINT)
+        shared.end()
