@@ -77,7 +77,7 @@ std::optional<std::string> callFunction(PackRules& pack, int function, game::Pla
 void suspend(PackRules& pack, const std::string& reason) {
     if (std::exchange(pack.isSuspended, true)) return;
     RulesHost& host = pack.host;
-    base::logError("{}; the rules of {} are suspended", reason, pack.name);
+    if (host.logs) base::logError("{}; the rules of {} are suspended", reason, pack.name);
     host.problems.push_back(reason);
     pack.timers.clear();
     for (const auto& [player, name] : host.players) {
@@ -86,8 +86,8 @@ void suspend(PackRules& pack, const std::string& reason) {
     }
 }
 
-Rules::Rules(game::Session& session, const std::vector<pack::Pack>& packs)
-    : host_(std::make_unique<RulesHost>(session)) {
+Rules::Rules(game::Session& session, const std::vector<pack::Pack>& packs, bool logs)
+    : host_(std::make_unique<RulesHost>(session, logs)) {
     for (const pack::Pack& pack : packs) {
         const auto first = pack.files.lower_bound(pack::kScripts);
         if (first == pack.files.end() || !first->first.starts_with(pack::kScripts)) continue;
@@ -117,7 +117,7 @@ base::Result<void> checkScripts(const pack::Content& content) {
     const store::WorldIdentity identity{.seed = 1, .generator = "flat", .generatorVersion = 1};
     game::Session session(
         {content.blocks, std::move(generators), std::make_unique<store::MemoryStore>(identity), 0});
-    const Rules rules(session, *content.packs);
+    const Rules rules(session, *content.packs, false);  // the caller reports the first
     if (rules.problems().empty()) return {};
     return base::fail(base::ErrorCode::BadInput, "{}", rules.problems().front());
 }

@@ -21,7 +21,8 @@ struct RulesHost;  // rules_internal.h
 class Rules {
   public:
     // Runs the scripts of the packs, in the order of loading, each pack's by name. The session outlives this.
-    Rules(game::Session& session, const std::vector<pack::Pack>& packs);
+    // `logs`: whether problems are logged.
+    Rules(game::Session& session, const std::vector<pack::Pack>& packs, bool logs = true);
     ~Rules();  // ends all handlers, timers and commands
     Rules(const Rules&) = delete;
     Rules& operator=(const Rules&) = delete;

@@ -97,9 +97,10 @@ struct PackRules : lua::Sandbox {
 };
 
 struct RulesHost {
-    explicit RulesHost(game::Session& ownSession) : session(ownSession) {}
+    RulesHost(game::Session& ownSession, bool logsProblems) : session(ownSession), logs(logsProblems) {}
 
     game::Session& session;
+    bool logs;  // problems
     std::vector<std::unique_ptr<PackRules>> packs = {};
     std::vector<std::string> problems = {};
     std::map<game::PlayerId, std::string> players = {};  // that are in the game

@@ -94,6 +94,14 @@ class Packs(support.ProgramTest):
             self.assertEqual(done.returncode, 2, arguments)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
 
+    def test_a_mistake_in_a_script_is_one_line(self):
+        self.terrane("packs", "init", "isles")
+        about = self.packs / "isles" / "pack.toml"
+        about.write_text(about.read_text().replace("# rules = 1", "rules = 1"))
+        (self.packs / "isles" / "scripts" / "main.lua").write_text('events.on("brak", print)\n')
+        told = self.terrane("packs", "check", "isles", code=2)
+        self.assertEqual(told.strip(), 'terrane: error: isles/scripts/main.lua:1: on: there is no event "brak"; did you mean break?')
+
     def test_slips_are_warned_of(self):
         self.terrane("packs", "init", "isles")
         (self.packs / "isles" / "languages" / "en.toml").write_text('[blocks]\nglow_rok = "Glow"\n')
