@@ -59,7 +59,7 @@ std::vector<std::string> withCommand(const std::vector<std::string>& given) {
     std::vector<const char*> texts;
     for (const std::string& text : given) texts.push_back(text.c_str());
     std::vector<std::string> named = withCurrentNames(texts);
-    const std::string_view first = given.size() > 1 ? given[1] : "";
+    const std::string_view first = given.size() > 1 ? std::string_view(given[1]) : "";
     const bool asksForHelp = first == "--help" || first == "-h" || first == "--version";
     if ((given.size() < 2 || first.starts_with('-')) && !asksForHelp && defaultCommand())
         named.insert(named.begin() + 1, defaultCommand());

@@ -184,8 +184,7 @@ SHARED_ALWAYS_INLINE Ray rayFromFace(SHARED_REF(Ray) ray, SHARED_REF(RayHit) hit
     for (int a = 0; a < 3; ++a) {
         SHARED_PRECISE float moved = hit.t * ray.direction[a];
         SHARED_PRECISE float at = (ray.start[a] + moved) - float(rayDistance(ray.cell[a], cell[a]));
-        at = at < 0.0f ? 0.0f : at > 1.0f ? 1.0f : at;
-        if (a == axis) at = 1.0f;
+        at = a == axis || at > 1.0f ? 1.0f : at < 0.0f ? 0.0f : at;
         SHARED_PRECISE float opposite = 1.0f - at;
         inCell[a] = ray.mirror[a] != 0 ? opposite : at;
     }
