@@ -35,7 +35,7 @@ save cave
 draw ocean --scene ocean --time 0.79
 save ocean
 
-"$program" render --preset high --view-distance 16 --size 960x540 --at=3650,-2100,200 --look=62,-9 --time 0.225 -o dawn.png
+"$program" render --generator continents --preset high --view-distance 16 --size 960x540 --at=3650,-2100,200 --look=62,-9 --time 0.225 -o dawn.png
 save dawn
 
 # The hamlet by the sea of the example program, if it was built.

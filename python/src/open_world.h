@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/pack/content.h"
 #include "terrane/volume/opened_world.h"
 
@@ -17,7 +18,7 @@ constexpr unsigned kMaxThreads = 256;
 // A generated world; the values are the defaults.
 struct NewWorld {
     std::uint64_t seed = 1;
-    std::string generator = "continents";
+    std::string generator = gen::kDefaultGenerator;
     std::vector<std::string> content;      // packs: names or paths
     world::RequestedHeights heights = {};  // else the generator's
 };

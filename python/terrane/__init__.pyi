@@ -20,7 +20,7 @@ class Error(Exception):
 
 class World:
     # seed: an integer from -2**63 to 2**64 - 1, or a text.
-    def __init__(self, seed: SupportsIndex | str = 1, generator: str = "continents", threads: SupportsIndex = 0, *,
+    def __init__(self, seed: SupportsIndex | str = 1, generator: str = "wilderness", threads: SupportsIndex = 0, *,
                  content: Sequence[str] = (), bottom: SupportsIndex | None = None,
                  top: SupportsIndex | None = None) -> None: ...
     def __enter__(self) -> World: ...

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/saves/world_identity.h"
 #include "terrane/world/heights.h"
 
@@ -18,7 +19,7 @@ namespace terrane::io {
 struct WorldOptions {
     // Defaults of a new world; an existing world keeps its own.
     static constexpr std::uint64_t kDefaultSeed = 1;
-    static constexpr const char* kDefaultGenerator = "continents";
+    static constexpr const char* kDefaultGenerator = gen::kDefaultGenerator;
 
     std::optional<std::uint64_t> seed;
     std::string seedText;  // text that was hashed to the seed; empty for a number

@@ -216,7 +216,7 @@ class Info(ProgramTest):
         self.assertEqual(text.count("\n"), 1)
         info = json.loads(text)
         self.assertLessEqual({"version", "processors", "simd", "generators", "graphics"}, set(info))
-        self.assertLessEqual({"overworld", "continents", "flat"}, set(info["generators"]))
+        self.assertLessEqual({"overworld", "continents", "wilderness", "flat"}, set(info["generators"]))
         self.assertGreaterEqual(info["processors"], 1)
         self.assertTrue(info["graphics"]["version"].startswith("4."))
         self.assertGreaterEqual(info["graphics"]["max_samples"], 4)

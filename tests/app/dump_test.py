@@ -14,6 +14,7 @@ import support
 from support import Npy, ProgramTest
 
 FLAT = ("--generator", "flat")
+LAND = ("--generator", "continents")  # 256 layers
 
 
 class Dump(ProgramTest):
@@ -35,28 +36,28 @@ class Dump(ProgramTest):
         self.assertEqual(sum(blocks.volume()), 32 * 48 * sum(expected))
 
     def test_blocks_of_the_land_are_known(self):
-        blocks = self.dump("blocks", "3,-2,5,0")
+        blocks = self.dump("blocks", "3,-2,5,0", *LAND)
         self.assertEqual(blocks.shape, (32, 32, 256))
         found = set(blocks.volume())
         self.assertLessEqual(found, set(self.ids().values()))
         self.assertGreater(len(found), 3)
 
     def test_an_area_is_made_of_its_chunks(self):
-        both = self.dump("blocks", "3,7,5,8")
-        second = self.dump("blocks", "4,7,5,8")
+        both = self.dump("blocks", "3,7,5,8", *LAND)
+        second = self.dump("blocks", "4,7,5,8", *LAND)
         for x, y in ((0, 0), (15, 15), (9, 4)):
             self.assertEqual(both.column(16 + x, y), second.column(x, y))
 
     # Areas are written in squares of 32 chunks.
     def test_an_area_of_several_squares(self):
-        small = {pos: self.dump("blocks", "{0},{1},{2},{3}".format(*pos, pos[0] + 1, pos[1] + 1))
+        small = {pos: self.dump("blocks", "{0},{1},{2},{3}".format(*pos, pos[0] + 1, pos[1] + 1), *LAND)
                  for pos in ((-20, 5), (11, 5), (12, 5), (13, 6))}
-        large = self.dump("blocks", "-20,5,14,7")
+        large = self.dump("blocks", "-20,5,14,7", *LAND)
         self.assertEqual(large.shape, (34 * 16, 32, 256))
         for (x, y), chunk in small.items():
             for block_x, block_y in ((0, 0), (15, 15), (3, 9)):
                 self.assertEqual(large.column((x + 20) * 16 + block_x, (y - 5) * 16 + block_y), chunk.column(block_x, block_y))
-        lights = self.dump("light", "-4,-30,-3,4"), self.dump("light", "-4,1,-3,3")
+        lights = self.dump("light", "-4,-30,-3,4", *LAND), self.dump("light", "-4,1,-3,3", *LAND)
         for x, y in ((0, 0), (15, 31), (8, 16)):
             self.assertEqual(lights[0].column(x, 31 * 16 + y), lights[1].column(x, y), "across the end of a square")
 
@@ -92,7 +93,7 @@ class Dump(ProgramTest):
     def test_a_full_disk_leaves_nothing(self):
         path = self.folder / "a.npy"
         for what, area, hint in (("blocks", "0,0,8,8", "8388736 bytes do not fit"), ("quads", "0,0,2,2", "cannot be written")):
-            done = self.limited(8192, "dump", "--what", what, "--area", area, "-o", path)
+            done = self.limited(8192, "dump", "--what", what, "--area", area, "-o", path, *LAND)
             self.assertRefused(done, what)
             self.assertIn(f"{path}: {hint}", done.stderr)
             self.assertEqual(list(self.folder.iterdir()), [], what)
@@ -133,7 +134,7 @@ class Dump(ProgramTest):
 
     def test_light_of_the_land_is_dark_in_stone(self):
         stone = self.ids()["stone"]
-        blocks, light = self.dump("blocks", "0,0,1,1"), self.dump("light", "0,0,1,1")
+        blocks, light = self.dump("blocks", "0,0,1,1", *LAND), self.dump("light", "0,0,1,1", *LAND)
         for block, level in zip(blocks.volume(), light.volume()):
             if block == stone:
                 self.assertEqual(level >> 12, 0)
@@ -158,7 +159,7 @@ class Dump(ProgramTest):
         self.assertEqual(values, [(-3, 5, *top), (-2, 5, *top)])
 
     def test_quads_of_the_land(self):
-        quads = self.dump("quads", "0,0,2,2")
+        quads = self.dump("quads", "0,0,2,2", *LAND)
         self.assertGreater(quads.shape[0], 500)
         for k in range(quads.shape[0]):
             chunk_x, chunk_y, x, y, z, face, u, v, _, context, group = struct.unpack_from("<ii3BH2BH2B", quads.data, k * 19)

@@ -22,7 +22,8 @@ class NewWorld : public testing::Test {
     }
 
     base::TempFolder folder_;
-    NewWorldForm form_ = newForm(folder_.path(), 5);
+    pack::Content content_ = io::loadContent({}).value();
+    NewWorldForm form_ = newForm(folder_.path(), 5, content_);
 };
 
 TEST_F(NewWorld, AFormThatNobodyTouchedMakesAWorld) {
@@ -30,9 +31,9 @@ TEST_F(NewWorld, AFormThatNobodyTouchedMakesAWorld) {
     ASSERT_TRUE(world);
     EXPECT_EQ(world->file, folder_.path() / "World.sqlite");
     EXPECT_EQ(world->seed->seed, 5u);
-    EXPECT_EQ(world->generator, "continents");
+    EXPECT_EQ(world->generator, gen::kDefaultGenerator);
     std::ofstream(world->file) << "there";
-    EXPECT_EQ(newForm(folder_.path(), 5).name, "World 2");
+    EXPECT_EQ(newForm(folder_.path(), 5, content_).name, "World 2");
     EXPECT_EQ(problemOf(form_), "there is a world \"World\" already");
 }
 
@@ -65,7 +66,8 @@ TEST_F(NewWorld, ASeedSaysWhichNumberItIsOnlyIfItDoesNotShowIt) {
 }
 
 TEST_F(NewWorld, HeightsAreTheGeneratorsUnlessTyped) {
-    EXPECT_EQ(heightsOf(form_).value(), world::Heights());
+    EXPECT_EQ(heightsOf(form_).value(),
+              gen::heightsOf(gen::kDefaultGenerator, *content_.blocks, {}, content_.generators).value());
     const auto requested = [&] { return worldOf(form_, folder_.path())->heights; };
     EXPECT_FALSE(requested().bottom || requested().top);
     form_.declared = {-1024, 1792};
@@ -80,6 +82,7 @@ TEST_F(NewWorld, HeightsAreTheGeneratorsUnlessTyped) {
 }
 
 TEST_F(NewWorld, HeightsThatNoWorldHasAreRefused) {
+    chooseGenerator(form_, "flat", content_);
     for (const char* text : {"3", "-2064", "2064", "256", "high", "1e3", "99999999999", "16.0", "16 32"}) {
         form_.bottom = text;
         EXPECT_FALSE(heightsOf(form_)) << text;

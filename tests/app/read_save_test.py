@@ -31,7 +31,7 @@ class ReadSave(ProgramTest):
     def setUp(self):
         super().setUp()
         self.save = self.folder / "w.sqlite"
-        self.succeed("generate", "--area", "-8,12,-5,14", "--world", self.save)
+        self.succeed("generate", "--generator", "continents", "--area", "-8,12,-5,14", "--world", self.save)
         self.names = {t["id"]: t["name"] for t in json.loads(self.succeed("blocks", "--json"))}
 
     def reader(self, *arguments):

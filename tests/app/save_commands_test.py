@@ -52,7 +52,7 @@ class Saves(ProgramTest):
     def test_another_world_is_refused(self):
         self.generate("--world", self.save, "--seed", "5", "--radius", "0")
         before = self.save.read_bytes()
-        for arguments, hint in ((("--seed", "6"), "seed 5, not 6"), (FLAT, "generator continents, not flat")):
+        for arguments, hint in ((("--seed", "6"), "seed 5, not 6"), (FLAT, "generator wilderness, not flat")):
             for more in ((), ("--recreate",)):
                 done = run("generate", "--world", self.save, "--radius", "0", *arguments, *more)
                 self.assertRefused(done, (arguments, more))
@@ -95,7 +95,7 @@ class Saves(ProgramTest):
 
     def test_a_world_without_generated_chunks(self):
         fly = ("flight-bench", "--at", "8,8,120", "--world", self.save, "--horizon", "0", "--view-distance", "1", "--size", "32x18", "--preset",
-               "low", "--duration", "0.1", "--json")
+               "low", "--duration", "0.1", "--json", "--generator", "continents")
         self.succeed(*fly, "--store-generated", "off")
         self.succeed(*fly)
         self.assertEqual(self.sql("SELECT count(*) FROM chunks"), [(0,)], "the world keeps it")
@@ -221,7 +221,7 @@ class Saves(ProgramTest):
         self.assertTrue(self.succeed("check", self.save).endswith("\ngood\n"))
         report = json.loads(self.succeed("check", self.save, "--json"))
         self.assertEqual((report["damaged"], report["chunks"], report["seed"]), (False, 9, 5))
-        self.assertEqual((report["format"], report["generator"]), (3, "continents"))
+        self.assertEqual((report["format"], report["generator"]), (4, "wilderness"))
 
     def test_check_damaged(self):
         self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)

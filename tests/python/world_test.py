@@ -16,7 +16,7 @@ def test_a_world_says_what_it_is():
     world = terrane.World(seed=2**64 - 1, generator="hills3d", threads=1)
     assert (world.seed, world.generator, world.threads, world.location) == (2**64 - 1, "hills3d", 1, "")
     assert repr(world) == "<terrane.World seed=18446744073709551615 generator=hills3d>"
-    assert terrane.World().generator == "continents"
+    assert terrane.World().generator == "wilderness"
 
 
 def test_generators_are_listed():

@@ -26,7 +26,7 @@ TEST_F(TitleTest, ANewWorldIsCreatedLeftAndContinued) {
     program.until("the form is in focus", [&] { return program.focused() == "Create"; });
     program.press(Key::Enter);
     program.untilDrawn();
-    EXPECT_EQ(program.session().store().identity().generator, "continents");
+    EXPECT_EQ(program.session().store().identity().generator, gen::kDefaultGenerator);
     EXPECT_EQ(program.game().settings.movement, game::Movement::Walk);
     program.press(Key::M);
     EXPECT_EQ(program.game().settings.movement, game::Movement::Fly);

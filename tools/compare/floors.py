@@ -120,8 +120,9 @@ class Floors:
         for path in self.folder.glob("floors.sqlite*"):
             path.unlink()
         trace = self.folder / "trace.json"
-        report, _ = terrane.run_json([self.program, "generate", "--radius", self.radius, "--threads", 1, "--backend", "cpu",
-                                      "--world", self.world, "--trace", trace, "--json"])
+        report, _ = terrane.run_json([self.program, "generate", "--generator", terrane.GENERATOR, "--radius",
+                                      self.radius, "--threads", 1, "--backend", "cpu", "--world", self.world,
+                                      "--trace", trace, "--json"])
         return (*batches_of(trace), report["chunks"])
 
     def ours(self):

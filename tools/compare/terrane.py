@@ -10,7 +10,8 @@ SOFTWARE = {"LIBGL_ALWAYS_SOFTWARE": "1"}
 SIZE = "1280x720"
 PITCH = 10           # degrees down
 YAWS = (0, 90, 180, 270)
-SEA_LEVEL = 80       # blocks, of the generator continents
+GENERATOR = "continents"
+SEA_LEVEL = 80       # blocks, of its worlds
 CHUNK = 16           # blocks
 HORIZON = 1024       # chunks: terrain to 16 km
 SEARCH_RADIUS = 64   # chunks around 0,0 in which places are chosen
@@ -34,8 +35,8 @@ def tasks_ms(report, names):
 
 
 def generate(program, world, seed, *area, threads=1):
-    return run_json([program, "generate", *area, "--threads", threads, "--backend", "cpu", "--seed", seed, "--world", world,
-                     "--json"])
+    return run_json([program, "generate", "--generator", GENERATOR, *area, "--threads", threads, "--backend", "cpu",
+                     "--seed", seed, "--world", world, "--json"])
 
 
 def load(program, world, seed, view_distance, image):

@@ -133,7 +133,7 @@ def server_steps(page, console, ann):
         page.run("""cd ~/server
             terrane backup ./home.sqlite ./backup.sqlite
             terrane check backup.sqlite""")
-        page.prints("backup.sqlite: format 3, generator continents version 1, seed 7", "good")
+        page.prints("backup.sqlite: format 4, generator wilderness version 1, seed 7", "good")
     with page.step(7):
         page.run("terrane history --world ./home.sqlite")
         if " Ann at " not in page.output:

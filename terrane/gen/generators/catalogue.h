@@ -38,6 +38,8 @@ using GeneratorCatalogue = std::vector<CatalogueEntry>;
 
 const GeneratorCatalogue& builtInGenerators();
 
+constexpr const char* kDefaultGenerator = "wilderness";  // of new worlds
+
 std::vector<std::string> namesOf(const GeneratorCatalogue& catalogue);
 
 // Returns the version of a generator; 0 for an unknown name.

@@ -157,8 +157,10 @@ base::Result<world::RequestedHeights> typedHeights(const NewWorldForm& form) {
 
 }  // namespace
 
-NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed) {
+NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed,
+                     const pack::Content& content) {
     NewWorldForm form;
+    chooseGenerator(form, gen::kDefaultGenerator, content);
     form.name = store::unusedWorldName(folder, "World");
     form.randomSeed = randomSeed;
     return form;

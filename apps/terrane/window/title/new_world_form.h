@@ -58,7 +58,7 @@ struct ChosenWorld {
 struct NewWorldForm {
     std::string name;
     std::string seed;  // empty: randomSeed
-    std::string generator = io::WorldOptions::kDefaultGenerator;
+    std::string generator;
     std::string bottom, top;  // empty: those of `declared`
     world::Heights declared;  // by the generator
     std::uint64_t randomSeed = 0;
@@ -66,8 +66,9 @@ struct NewWorldForm {
     bool operator==(const NewWorldForm&) const = default;
 };
 
-// A form with the first free name of "World", "World 2", ….
-NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed);
+// A form with the first free name of "World", "World 2", … and the default generator.
+NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed,
+                     const pack::Content& content);
 
 // Sets the generator and the heights that it declares.
 void chooseGenerator(NewWorldForm& form, const std::string& name, const pack::Content& content);

@@ -180,7 +180,7 @@ void TitleScreen::drawMain(const Screen& screen) {
         open(Page::Worlds);
     }
     if (menuButton(tr_("New world"))) {
-        form_ = newForm(parts_.folder, std::random_device()());
+        form_ = newForm(parts_.folder, std::random_device()(), parts_.content);
         open(Page::NewWorld);
     }
     if (!last && isFirst) ImGui::SetItemDefaultFocus();
@@ -259,7 +259,7 @@ void TitleScreen::drawWorldButtons() {
     if (menuButton(tr_("Play"), width, isGood && isFree)) play(*chosen);
     ImGui::SameLine();
     if (menuButton(tr_("New"), width)) {
-        form_ = newForm(parts_.folder, std::random_device()());
+        form_ = newForm(parts_.folder, std::random_device()(), parts_.content);
         open(Page::NewWorld);
     }
     if (!isThere && ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
