@@ -41,7 +41,8 @@ class HostileSaves(ProgramTest):
     def setUp(self):
         super().setUp()
         self.good = self.folder / "good.sqlite"
-        self.succeed("generate", "--radius", "1", "--world", self.good)
+        # Its chunks have 16 sections each: see swollen_chunk().
+        self.succeed("generate", "--radius", "1", "--generator", "continents", "--world", self.good)
         self.save = self.folder / "a.sqlite"
 
     def change(self, sql):
