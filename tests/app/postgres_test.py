@@ -108,7 +108,7 @@ class Refused(Postgres):
         self.assertOneLine(self.url, "in format 99")
 
     def test_an_older_format_is_brought_to_the_newest(self):
-        self.succeed("generate", "--radius", "1", "--world", self.url)
+        self.succeed("generate", "--radius", "1", "--generator", "continents", "--world", self.url)  # of 256 layers
         newer = ("jobs", "work_areas", "workers", "work_state", "texts", "players", "claims", "edits", "history", "online",
                  "servers", "growth_leases")
         _server.query(f"DROP TABLE {', '.join(f'{self.schema}.{table}' for table in newer)}; "
