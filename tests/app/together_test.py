@@ -72,8 +72,8 @@ class Together(ProgramTest):
             bob.wait_for_ground(is_grey)
             keep(first, ann, "ann")
             keep(second, bob, "bob")
-            self.assertRegex(self.history(), r"Ann at 8 8 81: air to cobble")
             self.stop()
+            self.assertRegex(self.history(), r"Ann at 8 8 81: air to cobble")
 
     def test_the_console_and_a_clean_end(self):
         self.server.say("help")
