@@ -275,8 +275,9 @@ class Playing(BrowserTest):
 
     def setUp(self):
         super().setUp()
-        self.server = self.start("serve", "--world", self.folder / "w.sqlite", "--seed", "7", "--address", "127.0.0.1",
-                                 "--port", "0", "--http", "0")
+        # Players begin at about 290,100.
+        self.server = self.start("serve", "--world", self.folder / "w.sqlite", "--generator", "continents", "--seed", "7",
+                                 "--address", "127.0.0.1", "--port", "0", "--http", "0")
         self.port = self.server.wait_for(r"on port (\d+)")[1]
 
     def send_bot(self, *arguments):
