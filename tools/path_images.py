@@ -26,7 +26,7 @@ VIEWS = {
     "dawn": ["--at=3650,-2100,200", "--look=62,-9", "--time=0.225"],
 }
 # What the path tracer does not draw.
-QUADS = ["--preset=high", "--clouds=off", "--god-rays=off"]
+QUADS = ["--preset=high", "--clouds=off", "--god-rays=off", "--bloom=off"]
 
 
 def linear(path: pathlib.Path) -> numpy.ndarray:
@@ -45,7 +45,7 @@ def luminance(color: numpy.ndarray) -> numpy.ndarray:
 
 def draw(arguments: argparse.Namespace, name: str, renderer: str, options: list) -> dict:
     output = arguments.folder / f"{name}_{renderer}.png"
-    command = [arguments.program, "render", "--renderer", renderer, "--size", arguments.size, "--view-distance=16",
+    command = [arguments.program, "render", "--renderer", renderer, "--size", arguments.size, "--view-distance=16", "--adaptation=off",
                "--json", "-o", output, *VIEWS[name], *options]
     text = subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True,
                           cwd=arguments.folder).stdout

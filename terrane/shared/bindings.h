@@ -57,6 +57,7 @@ const uint kSkyTableUnit = 28u;
 const uint kMilkyWayUnit = 29u;
 const uint kListedQuadsUnit = 30u;  // a buffer as a texture
 const uint kQuadLightUnit = 31u;    // a buffer as a texture, beside kQuadsUnit
+const uint kBloomUnit = 32u;
 
 // Vertex attributes
 const uint kDrawRecordAttribute = 0u;  // DrawRecord, by the base instance

@@ -24,6 +24,7 @@ struct Frame {
     vec4 horizonColor;
     vec4 glowColor;  // around the light at the horizon
     vec4 discColor;  // of the sun or moon itself
+    vec4 exposure;   // of the eye, by color
 
     vec2 viewportSize;   // pixels
     vec2 lightOnScreen;  // the sun or moon, -1…1
@@ -40,7 +41,7 @@ struct Frame {
     float edgeExpansion;  // pixels by which quads grow, see edge_expansion.glsl
     float timeSeconds;    // for animations
 
-    float exposure;
+    uint waterAbove;         // blocks of water over the camera, its own included; 0 in air
     float ambientFromBelow;  // share of ambientColor on faces that look down
     float hiddenLampShare;   // share of lamp light that full daylight hides
     float discSine;          // sine of the radius of the sun's or moon's disc
@@ -50,9 +51,8 @@ struct Frame {
     float lightRayShare;   // visible share of the light's rays, 0…1
     uint isMoon;           // 1 at night, when the light is the moon
 
-    uint waterAbove;  // blocks of water over the camera, its own included; 0 in air
     int bottom, top;  // the world's lowest layer, and the one above its highest
-    uint unused;
+    uint unused0, unused1;
 };
 
 // Share of the fog distance, along the view direction, from which surfaces may fade: 5/6 over the ground,
@@ -89,7 +89,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 64 + 17 * 16, "members lie in groups of 16 bytes, as in std140");
+static_assert(sizeof(Frame) == 64 + 18 * 16, "members lie in groups of 16 bytes, as in std140");
 static_assert(sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif

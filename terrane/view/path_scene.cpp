@@ -63,8 +63,7 @@ base::Result<std::unique_ptr<path::Scene>> makePathScene(Offscreen& world, const
 }
 
 path::Camera pathCameraOf(const render::FrameInput& input, glm::ivec2 size, const Lens& lens) {
-    const render::ViewMatrices view =
-        render::viewMatrices(input.camera, static_cast<float>(size.x) / static_cast<float>(size.y));
+    const render::ViewMatrices view = render::viewMatrices(input.camera, render::aspectOf(size));
     return {.position = input.camera.position,
             .ahead = view.ahead,
             .across = view.across,
@@ -74,10 +73,10 @@ path::Camera pathCameraOf(const render::FrameInput& input, glm::ivec2 size, cons
             .isInWater = input.waterAbove > 0};
 }
 
-base::Image displayedImage(const path::Means& means) {
+base::Image displayedImage(const path::Means& means, glm::vec3 exposure) {
     base::Image image{means.size.x, means.size.y, {}};
     for (const glm::vec3& radiance : means.radiance) {
-        const glm::vec3 color = render::displayColor(radiance);
+        const glm::vec3 color = render::displayColor(exposure * radiance);
         for (int c = 0; c < 3; ++c) image.rgba.push_back(static_cast<std::uint8_t>(color[c] * 255.0f + 0.5f));
         image.rgba.push_back(255);
     }

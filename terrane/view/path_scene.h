@@ -25,7 +25,7 @@ struct Lens {
 };
 path::Camera pathCameraOf(const render::FrameInput& input, glm::ivec2 size, const Lens& lens);
 
-// The image with the rasterizer's exposure and tone curve.
-base::Image displayedImage(const path::Means& means);
+// The image with the rasterizer's exposure (FrameInput) and tone curve.
+base::Image displayedImage(const path::Means& means, glm::vec3 exposure);
 
 }  // namespace terrane::view

@@ -153,6 +153,10 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
     input.waterAbove = game::waterAbove(session, point.camera.position);
+    if (seenShot_ != &shot) eye_ = {};  // a cut
+    input.exposure = eye_.look(session, input, render::aspectOf(parts_.size), seconds - seenSeconds_);
+    seenShot_ = &shot;
+    seenSeconds_ = seconds;
     parts_.world.renderer.draw(input);
     base::Image image = parts_.world.renderer.readImage();
     for (const TitleCue& title : shot.titles) {

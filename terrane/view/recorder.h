@@ -11,6 +11,7 @@
 #include "terrane/base/image.h"
 #include "terrane/base/result.h"
 #include "terrane/game/session.h"
+#include "terrane/view/eye.h"
 #include "terrane/view/offscreen.h"
 #include "terrane/view/shots.h"
 #include "terrane/world/pose.h"
@@ -71,6 +72,9 @@ class Recorder {
     EditPlayer edits_;
     int viewDistance_ = 0;  // of the renderer
     const Shot* warnedOf_ = nullptr;
+    Eye eye_;
+    const Shot* seenShot_ = nullptr;  // its last frame was at seenSeconds_
+    double seenSeconds_ = 0;
 };
 
 // The opacity of a title, 0…1, `seconds` after its start.

@@ -76,6 +76,30 @@ TEST_F(Effects, OfTheSky) {
     expectEffect("god_rays", gladeFrame(kTowardSun, 0.76f), [](RenderOptions& o) { o.godRays = true; });
 }
 
+// A lamp in the dark, nearly black around it, and the same place by day.
+TEST_F(Effects, OfBloom) {
+    world::World world = flatWorld(2);
+    world::putBlock(world, {8, 8, kGalleryZ}, contentBlock("lamp_white"));
+    for (const auto& [pos, mesh] : meshWorld(world)) renderer_->setChunk(pos, mesh);
+    const render::Camera camera{{8.5, 2.5, kGalleryZ + 1.6}, 90, -6, 50};
+    render::FrameInput night{camera, world::environmentAt(0), 400, 0, render::View::Color};
+    night.exposure = glm::vec3(2.5f);
+    const auto withBloom = [](RenderOptions& o) { o.bloom = true; };
+    expectEffect("bloom", night, withBloom);
+    const base::Image off = imageOf(night, [](RenderOptions&) {}), on = imageOf(night, withBloom);
+    // To the right of the lamp, in its row.
+    const auto added = [&](int x) {
+        const std::size_t at = 4 * static_cast<std::size_t>(kImageSize.y / 2 * kImageSize.x + x) + 1;
+        return on.rgba[at] - off.rgba[at];
+    };
+    EXPECT_GT(added(kImageSize.x / 2 + 30), added(kImageSize.x / 2 + 60));
+    EXPECT_GE(added(kImageSize.x - 1), 0);
+    const render::FrameInput day{
+        {camera.position, 270, -20, 50}, world::environmentAt(0.45f), 400, 0, render::View::Color};
+    EXPECT_EQ(difference(imageOf(day, withBloom), imageOf(day, [](RenderOptions&) {})).max, 0)
+        << "land by day is not so bright";
+}
+
 // One sample per pixel without the treatment of holes and edges, against several.
 TEST_F(Effects, OfSamples) {
     loadOverworld(*renderer_, kGlade, kGladeDistance);

@@ -31,7 +31,7 @@ inline RenderOptions plainOptions(int samples) {
     RenderOptions options;
     options.msaaSamples = samples;
     options.shadows = ShadowReach::Off;
-    options.depthOfField = options.godRays = options.clouds = false;
+    options.depthOfField = options.godRays = options.bloom = options.clouds = false;
     options.water = Water::Plain;
     options.animation = options.msaaAlphaTest = false;
     return options;

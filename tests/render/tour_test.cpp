@@ -22,8 +22,9 @@ class Tour : public gpu::GlTest {
         RenderOptions o;
         // A new option does not compile here before it is set below.
         [[maybe_unused]] const auto& [samples, shading, light, shadows, shadowSize, soft, occlusion,
-                                      depthOfField, fog, rays, clouds, animation, filtering, alphaTest, water,
-                                      layers, single, junctions, culling, backs, scale, upscaling, draw] = o;
+                                      depthOfField, fog, rays, bloom, clouds, animation, adaptation,
+                                      filtering, alphaTest, water, layers, single, junctions, culling, backs,
+                                      scale, upscaling, draw] = o;
         o.msaaSamples = 1 << pick(3);
         o.shading = static_cast<Shading>(pick(4));
         o.light = static_cast<LightSampling>(pick(2));
@@ -34,8 +35,10 @@ class Tour : public gpu::GlTest {
         o.depthOfField = pick(2) == 0;
         o.distanceFog = pick(4) > 0;
         o.godRays = pick(2) == 0;
+        o.bloom = pick(2) == 0;
         o.clouds = pick(2) == 0;
         o.animation = pick(2) == 0;
+        o.adaptation = pick(2) == 0;
         o.sharpFiltering = pick(2) == 0;
         o.msaaAlphaTest = pick(2) == 0;
         o.water = static_cast<Water>(pick(2));

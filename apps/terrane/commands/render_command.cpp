@@ -23,6 +23,7 @@
 #include "terrane/path/exr.h"
 #include "terrane/store/saves/save_path.h"
 #include "terrane/view/camera_path.h"
+#include "terrane/view/eye.h"
 #include "terrane/view/frame_times.h"
 #include "terrane/view/path_scene.h"
 
@@ -207,12 +208,12 @@ base::Result<void> traceSamples(path::Film& film, const RenderCommandOptions& op
 }
 
 base::Result<void> writeTraced(const RenderCommandOptions& options, const path::Film& film,
-                               base::JobSystem& jobs) {
+                               glm::vec3 exposure, base::JobSystem& jobs) {
     path::Means means = path::meansOf(film);
     if (options.path.denoises) path::denoise(means, jobs);
     if (isExr(options.output))
         return path::writeExr(options.output, means, {film.samples, options.path.denoises});
-    return base::writePng(options.output, view::displayedImage(means));
+    return base::writePng(options.output, view::displayedImage(means, exposure));
 }
 
 base::Result<void> traceImage(const RenderCommandOptions& options, view::Offscreen& world,
@@ -232,7 +233,8 @@ base::Result<void> traceImage(const RenderCommandOptions& options, view::Offscre
     TERRANE_TRY(traceSamples(
         film, options, world.session->jobs(), [&] { return path::Tracer(*scene, camera, trace); }, key));
     timings.draw = millisecondsSince(drawStart);
-    TERRANE_TRY(writeTraced(options, film, world.session->jobs()));
+    const glm::vec3 exposure = world.graphics.render.adaptation ? input.exposure : glm::vec3(1);
+    TERRANE_TRY(writeTraced(options, film, exposure, world.session->jobs()));
     base::logInfo(
         "{}: {} chunks and tiles, {} faces that emit light, {} samples of each pixel, {} of them "
         "in {:.1f} s",
@@ -293,12 +295,14 @@ base::Result<void> renderImage(const CLI::App& command, const RenderCommandOptio
     timings.viewDistance = (*world)->view->viewDistance();
 
     const auto drawStart = Clock::now();
-    const render::FrameInput input{camera,
-                                   world::environmentAt(place.timeDay),
-                                   view::fogDistance((*world)->view->visibleDistance()),
-                                   options.seconds,
-                                   options.graphics.view,
-                                   game::waterAbove(session, camera.position)};
+    render::FrameInput input{camera,
+                             world::environmentAt(place.timeDay),
+                             view::fogDistance((*world)->view->visibleDistance()),
+                             options.seconds,
+                             options.graphics.view,
+                             game::waterAbove(session, camera.position)};
+    input.exposure =
+        view::exposureFor(view::seenLight(session, input, render::aspectOf(options.graphics.size)));
     if (options.renderer == RendererKind::Path) {
         TERRANE_TRY(traceImage(options, **world, input, timings));
         return (*world)->finish();

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
@@ -37,6 +38,11 @@ struct ViewMatrices {
 };
 
 ViewMatrices viewMatrices(const Camera& camera, float aspect);
+
+// Returns the width of an image divided by its height, in pixels.
+inline float aspectOf(glm::ivec2 size) {
+    return static_cast<float>(size.x) / static_cast<float>(size.y);
+}
 
 // Half spaces a·p + w ≥ 0 that contain the view: left, right, bottom, top, near.
 using Frustum = std::array<glm::vec4, 5>;

@@ -7,7 +7,7 @@ namespace terrane::render {
 MaybePass makeFinal(FrameBuilder& build) {
     if (build.frame.isDirect()) return std::nullopt;
     const RenderOptions& options = build.options();
-    const FinalVariant variant{build.samples(), options.depthOfField, options.godRays,
+    const FinalVariant variant{build.samples(), options.depthOfField, options.godRays, options.bloom,
                                options.occlusion == Occlusion::Raw};
     const auto* final = TERRANE_TRY(build.programs.fullscreen("frame/final", variant.defines()));
     const SharedTargets& targets = build.frame.targets;
@@ -21,6 +21,7 @@ MaybePass makeFinal(FrameBuilder& build) {
         reads.push_back(target);
     };
     readIf(targets.occlusion, shared::kOcclusionUnit, nullptr);
+    readIf(targets.bloom, shared::kBloomUnit, smooth.get());
     readIf(targets.godRays, shared::kGodRaysUnit, smooth.get());
     readIf(targets.depthOfField, shared::kDepthOfFieldUnit, smooth.get());
     return Pass{.reads = std::move(reads), .writes = {targets.image}, .record = [=](FrameContext& context) {

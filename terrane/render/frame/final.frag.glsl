@@ -1,4 +1,4 @@
-// From the scene to the screen: depth of field, god rays, then tone.glsl. DEPTH_OF_FIELD, GOD_RAYS: 1 adds them.
+// From the scene to the screen: depth of field, god rays, bloom, then tone.glsl. DEPTH_OF_FIELD, GOD_RAYS, BLOOM: 1 adds them.
 // RAW_OCCLUSION: 1 shows the ambient occlusion instead. MSAA_SAMPLES: of the depth.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/frame/tone.glsl"
@@ -10,6 +10,9 @@ layout(binding = kDepthOfFieldUnit) uniform sampler2D blurred;
 #endif
 #if GOD_RAYS == 1
 layout(binding = kGodRaysUnit) uniform sampler2D godRays;
+#endif
+#if BLOOM == 1
+layout(binding = kBloomUnit) uniform sampler2D bloom;
 #endif
 #if RAW_OCCLUSION == 1
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
@@ -35,6 +38,9 @@ void main() {
 #endif
 #if GOD_RAYS == 1
     color += 1.2 * textureLod(godRays, at, 0.0).r * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
+#endif
+#if BLOOM == 1
+    color += 4.0 * textureLod(bloom, at, 0.0).rgb / frame.exposure.rgb;
 #endif
     outColor = vec4(screenColor(color, pixel), 1.0);
 }

@@ -18,7 +18,8 @@ MaybePass makeCull(FrameBuilder&), makeShadowMap(FrameBuilder&), makeSurfaces(Fr
     makeHoleFill(FrameBuilder&), makeFigures(FrameBuilder&), makeOcclusion(FrameBuilder&),
     makeSky(FrameBuilder&), makeShade(FrameBuilder&), makePeel(FrameBuilder&), makeShadeLayers(FrameBuilder&),
     makeClouds(FrameBuilder&), makeGodRays(FrameBuilder&), makeDepthOfField(FrameBuilder&),
-    makeFinal(FrameBuilder&), makeDebugView(FrameBuilder&), makeResize(FrameBuilder&);
+    makeBloom(FrameBuilder&), makeFinal(FrameBuilder&), makeDebugView(FrameBuilder&),
+    makeResize(FrameBuilder&);
 
 namespace {
 
@@ -45,6 +46,7 @@ constexpr PassRow kPasses[] = {
     {"clouds", makeClouds},                // draws clouds that are before surfaces
     {"god rays", makeGodRays},             //
     {"depth of field", makeDepthOfField},  //
+    {"bloom", makeBloom},                  //
     {"final", makeFinal},                  // applies effects and display colors
     {"debug view", makeDebugView},         // shows the G-buffer instead of the image
     {"resize", makeResize}};               // makes the image as large as it is shown

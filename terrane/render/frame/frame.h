@@ -101,8 +101,8 @@ struct SharedTargets {
     TargetRef image;            // as the screen shows it
     TargetRef
         mask;  // selects pixels of full-screen passes, with several samples a pixel: see pixel_mask.frag.glsl
-    TargetRef hiZ, occlusion, occlusionBetween, godRays, depthOfField;  // null: off
-    std::vector<TargetRef> layers, layerDepths;                         // from the nearest
+    TargetRef hiZ, occlusion, occlusionBetween, godRays, depthOfField, bloom;  // null: off
+    std::vector<TargetRef> layers, layerDepths;                                // from the nearest
     std::shared_ptr<const LayerQueries> anyLayer;  // whether layers have faces: transparency_pass.cpp
 };
 

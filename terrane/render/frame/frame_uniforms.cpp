@@ -62,7 +62,7 @@ shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& option
     frame.edgeExpansion = options.tJunctions == TJunctions::Covered ? setup.edgeExpansion : 0.0f;
     frame.fogDistance = input.fogDistance;
     frame.timeSeconds = input.timeSeconds;
-    frame.exposure = kExposure;
+    frame.exposure = glm::vec4(kExposure * (options.adaptation ? input.exposure : glm::vec3(1)), 0);
     frame.ambientFromBelow = kAmbientFromBelow;
     frame.waterAbove = static_cast<shared::uint>(input.waterAbove);
     frame.view = static_cast<shared::uint>(input.view);

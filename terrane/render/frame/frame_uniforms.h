@@ -33,6 +33,7 @@ struct FrameInput {
     std::optional<Camera> cullingCamera = std::nullopt;
     // Other players; may include figures out of view.
     std::span<const world::Figure> figures = {};
+    glm::vec3 exposure{1};  // of an adapted eye (view/eye.h), by color; 1 by day
 };
 
 struct FrameSetup {

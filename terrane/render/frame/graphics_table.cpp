@@ -105,10 +105,15 @@ std::vector<GraphicsRow> makeTable() {
         switchOf<&RenderOptions::godRays>({"god-rays", "Rays of light around objects in front of the sun",
                                            "Sun rays",
                                            "Rays of light between things in front of the sun.\nCost: low."}),
+        switchOf<&RenderOptions::bloom>({"bloom", "Light that spreads around lamps and the sun", "Bloom",
+                                         "Light spreads around what shines.\nCost: low."}),
         switchOf<&RenderOptions::clouds>(
             {"clouds", "Clouds", "Clouds", "Clouds in the sky and their shadows.\nCost: medium."}),
         switchOf<&RenderOptions::animation>({"animation", "Moving plants, leaves and water", "Moving plants",
                                              "Plants, leaves and water move.\nCost: low."}),
+        switchOf<&RenderOptions::adaptation>(
+            {"adaptation", "Eyes that adapt to caves and nights, which become brighter then", "Adapting eyes",
+             "Dark places become readable after a moment.\nCost: none."}),
         switchOf<&RenderOptions::sharpFiltering>(
             {"sharp-filtering", "Sharp texels with smooth edges in near textures"}),
         switchOf<&RenderOptions::msaaAlphaTest>(

@@ -14,7 +14,7 @@ constexpr RenderOptions low() {
     RenderOptions o;
     o.msaaSamples = 1;
     o.shadows = ShadowReach::Off;
-    o.depthOfField = o.godRays = o.msaaAlphaTest = o.sharpFiltering = o.clouds = false;
+    o.depthOfField = o.godRays = o.bloom = o.msaaAlphaTest = o.sharpFiltering = o.clouds = false;
     o.transparencyLayers = 1;
     o.water = Water::Plain;
     return o;
@@ -63,6 +63,7 @@ constexpr RenderOptions ultra() {
 constexpr Preset thesis() {
     Preset preset{.name = "thesis"};
     preset.options.water = Water::Plain;
+    preset.options.adaptation = preset.options.bloom = false;
     preset.options.tJunctions = TJunctions::Filled;
     preset.mesh = {.method = mesh::MergeMethod::SquaresExt, .meshSectionHeight = 64};
     preset.viewDistance = 32;
@@ -78,7 +79,7 @@ RenderOptions drawnOptions(RenderOptions options) {
     options.light = LightSampling::Classic;
     options.shadows = ShadowReach::Off;
     options.occlusion = Occlusion::Off;
-    options.depthOfField = options.godRays = options.clouds = options.sharpFiltering = false;
+    options.depthOfField = options.godRays = options.bloom = options.clouds = options.sharpFiltering = false;
     options.water = Water::Plain;
     options.transparencyLayers = std::min(options.transparencyLayers, 1);
     options.singleTransparencyLayer = 0;

@@ -68,8 +68,10 @@ struct RenderOptions {
     bool depthOfField = true;
     bool distanceFog = true;
     bool godRays = true;
+    bool bloom = true;  // around what is brighter than the screen
     bool clouds = true;
     bool animation = true;
+    bool adaptation = true;      // the eye adapts to the dark
     bool sharpFiltering = true;  // magnified texels with sharp and smooth edges
     bool msaaAlphaTest = true;   // holes in leaves and plants are found for each sample
     Water water = Water::Full;

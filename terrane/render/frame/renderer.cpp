@@ -29,10 +29,6 @@ constexpr float kMaxAnisotropy = 8.0f;
 // Least light that casts shadows, linear: between sun and moon the light is too dark to see.
 constexpr float kMinShadowedLight = 0.002f;
 
-float aspectOf(glm::ivec2 size) {
-    return static_cast<float>(size.x) / static_cast<float>(size.y);
-}
-
 }  // namespace
 
 base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,

@@ -49,8 +49,9 @@ void copyTarget(const Target& from, const Target& to, glm::ivec2 corner, glm::iv
 // those of a pixel, as the driver has them. With one sample and no clouds surfaces need no sky drawn behind
 // them, and layers are shaded together with the surface behind. Reflected shores read the scene.
 constexpr bool isDirectImage(const RenderOptions& o, int samples) {
-    return samples == 1 && !o.clouds && !o.godRays && !o.depthOfField && o.occlusion == Occlusion::Off &&
-           o.singleTransparencyLayer == 0 && (o.water == Water::Plain || o.transparencyLayers == 0);
+    return samples == 1 && !o.clouds && !o.godRays && !o.bloom && !o.depthOfField &&
+           o.occlusion == Occlusion::Off && o.singleTransparencyLayer == 0 &&
+           (o.water == Water::Plain || o.transparencyLayers == 0);
 }
 
 }  // namespace terrane::render

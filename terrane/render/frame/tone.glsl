@@ -17,7 +17,7 @@ vec3 encodeSrgb(vec3 c) {
 
 // Display color of linear light.
 vec3 displayColor(vec3 light) {
-    return encodeSrgb(clamp(compressHighlights(light * frame.exposure), 0.0, 1.0));
+    return encodeSrgb(clamp(compressHighlights(light * frame.exposure.rgb), 0.0, 1.0));
 }
 
 // With noise of one step.

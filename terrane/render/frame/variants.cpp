@@ -298,12 +298,14 @@ gpu::ShaderDefines FinalVariant::defines() const {
     return defined({{"MSAA_SAMPLES", samples},
                     {"DEPTH_OF_FIELD", hasDepthOfField},
                     {"GOD_RAYS", hasGodRays},
+                    {"BLOOM", hasBloom},
                     {"RAW_OCCLUSION", showsOcclusion}});
 }
 
 std::vector<FinalVariant> FinalVariant::all() {
     auto variants = with(withSamples<FinalVariant>(), &FinalVariant::hasDepthOfField);
-    return with(with(variants, &FinalVariant::hasGodRays), &FinalVariant::showsOcclusion);
+    variants = with(with(variants, &FinalVariant::hasGodRays), &FinalVariant::hasBloom);
+    return with(variants, &FinalVariant::showsOcclusion);
 }
 
 gpu::ShaderDefines ResizeVariant::defines() const {

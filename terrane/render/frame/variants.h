@@ -169,7 +169,7 @@ struct DepthOfFieldVariant {
 
 struct FinalVariant {
     int samples = 1;
-    bool hasDepthOfField = false, hasGodRays = false, showsOcclusion = false;
+    bool hasDepthOfField = false, hasGodRays = false, hasBloom = false, showsOcclusion = false;
 
     gpu::ShaderDefines defines() const;
     static std::vector<FinalVariant> all();

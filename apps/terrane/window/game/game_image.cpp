@@ -137,7 +137,9 @@ void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
     const GameParts& parts = game.parts;
     parts.view.upload(view::uploadBudget(seconds, parts.view.missing()));
     if (auto notice = parts.view.takeNotice()) game.notices.say(std::move(*notice));
-    parts.renderer.draw(frameInputOf(game));
+    render::FrameInput input = frameInputOf(game);
+    input.exposure = game.eye.look(parts.session, input, render::aspectOf(size), seconds);
+    parts.renderer.draw(input);
     parts.renderer.presentToWindow(size);
     holdRate(game, seconds);
     pickPreset(game, seconds);

@@ -23,6 +23,7 @@
 #include "terrane/game/places.h"
 #include "terrane/game/player_state.h"
 #include "terrane/render/frame/scale_governor.h"
+#include "terrane/view/eye.h"
 #include "terrane/view/frame_times.h"
 
 namespace terrane::app {
@@ -93,6 +94,7 @@ struct GameState {
     RemoteView remote;
     GameSounds sounds;
 
+    view::Eye eye;
     PresetPicker preset;
     render::ScaleGovernor scale;
     base::TimedValue<double> refreshRate{1};  // of the monitor; a window may move
