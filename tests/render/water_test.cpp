@@ -4,6 +4,7 @@
 
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/render/cull/screen_rect.h"
+#include "tests/golden/scenes.h"
 #include "tests/render/renderer_fixture.h"
 
 namespace terrane::render {
@@ -153,6 +154,57 @@ TEST_F(Water, MirrorsATowerBehindIt) {
         EXPECT_GT(redness(samples, render::Water::Full), 60) << samples;
         EXPECT_LT(std::abs(redness(samples, render::Water::Plain)), 20) << samples;
     }
+}
+
+// Waves do not tear pieces off a reflection: what is mirrored hangs together with its foot at the shore.
+TEST_F(Water, ReflectionsStayInOnePiece) {
+    constexpr glm::ivec2 kWideSize{320, 180};
+    RenderOptions options = plainOptions(1);
+    options.water = render::Water::Full;
+    ASSERT_TRUE(renderer_->configure(kWideSize, options));
+    // A sea 20 deep; battlements at its eastern end.
+    const int radius = 6, east = world::kChunkSize * radius - 1;
+    const auto seaWith = [&](bool hasShore) {
+        world::World world = golden::emptyWorld(radius);
+        for (int x = -world::kChunkSize * radius; x <= east + world::kChunkSize; ++x)
+            for (int y = -world::kChunkSize * radius; y <= east + world::kChunkSize; ++y)
+                for (int z = kSurface - 20; z <= kSurface; ++z)
+                    world::putBlock(world, {x, y, z}, contentBlock(z < kSurface - 18 ? "stone" : "water"));
+        if (!hasShore) return golden::meshWorld(world);
+        for (int y = 0; y < 16; ++y)
+            for (int z = kSurface; z < kSurface + (y / 4 % 2 == 0 ? 12 : 5); ++z)
+                world::putBlock(world, {east, y, z}, contentBlock("lamp_red"));
+        return golden::meshWorld(world);
+    };
+    const auto drawn = [&](bool hasShore) {
+        for (const auto& [pos, mesh] : seaWith(hasShore)) EXPECT_TRUE(renderer_->setChunk(pos, mesh));
+        std::vector<base::Image> images;
+        for (const float seconds : {0.0f, 1.7f, 3.4f, 5.1f}) {
+            FrameInput input = noon({{-30, 8, 114}, 0, -8, 18});
+            input.timeSeconds = seconds;
+            images.push_back(draw(input));
+        }
+        return images;
+    };
+    const std::vector<base::Image> without = drawn(false), with = drawn(true);
+    int mirrored = 0, torn = 0;
+    for (std::size_t k = 0; k < with.size(); ++k) {
+        const auto isRed = [&](int x, int y) {
+            const auto reddened = [&](const base::Image& image) {
+                const std::size_t at = 4 * static_cast<std::size_t>(y * kWideSize.x + x);
+                return image.rgba[at] - image.rgba[at + 2];
+            };
+            return reddened(with[k]) > reddened(without[k]) + 8;
+        };
+        for (int y = kWideSize.y / 2; y < kWideSize.y; ++y)
+            for (int x = 1; x + 1 < kWideSize.x; ++x) {
+                if (!isRed(x, y)) continue;
+                ++mirrored;
+                torn += !isRed(x - 1, y - 1) && !isRed(x, y - 1) && !isRed(x + 1, y - 1);
+            }
+    }
+    EXPECT_GT(mirrored, 1000);
+    EXPECT_LE(torn, mirrored / 200) << mirrored;
 }
 
 TEST_F(Water, GlittersTowardTheSun) {

@@ -100,7 +100,8 @@ Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 lev
     vec3 mirrored = skyColor(reflected) * open;
     if (hasFarFloor) seen *= lightUnder(below);
 #if WATER_DETAIL == 1
-    vec3 calmer = normalize(vec3(0.4 * waves.slope, 1.0));
+    // Calmer, so that a reflection stays in one piece: a pixel has one ray, not those of all its waves.
+    vec3 calmer = normalize(vec3(0.07 * waves.slope, 1.0));
     vec4 shore = shoreReflection(position, reflect(view, calmer), isTop && isNearest ? mirror : 0.0);
     mirrored = mix(mirrored, shore.rgb, shore.a);
     seen *= causticsBehind(position, toPoint, view, blocks, shadow * light.a);

@@ -4,7 +4,7 @@
 // section 9.3, "Rendering Feedback Loops").
 layout(binding = kSceneUnit) uniform sampler2D scene;
 
-const int kMarchSteps = 12, kRefineSteps = 3;
+const int kMarchSteps = 20, kRefineSteps = 5;
 const float kLeastMirror = 0.04;  // weaker reflections are invisible
 
 ivec2 pixelAt(vec2 screen) {
@@ -21,20 +21,21 @@ bool isBehind(vec3 at) {
     return at.z < depthAt(pixelAt(at.xy), 0);
 }
 
-// Color, and its share: 0 far behind near surfaces, in water, and at the edge of the image. `at`: the first point of
-// the ray found behind a surface; `before`: the last one in front of it.
-vec4 seenBehind(vec3 before, vec3 at, vec2 onScreen) {
-    float seen = blocksOfDepth(depthAt(pixelAt(at.xy), 0)), blocks = blocksOfDepth(at.z);
-    // The ray may pass far behind near surfaces.
-    float thickness = 1.0 + 0.05 * seen + abs(blocks - blocksOfDepth(before.z));
-    float share = blocks - seen < thickness ? 1.0 : 0.0;
+// Whether a surface lies between two points of the ray. It is passed far behind near surfaces.
+bool isHitBetween(vec3 before, vec3 at) {
+    float depth = depthAt(pixelAt(at.xy), 0);
+    float seen = blocksOfDepth(depth), blocks = blocksOfDepth(at.z);
+    return at.z < depth && blocks - seen < 1.0 + 0.05 * seen + abs(blocks - blocksOfDepth(before.z));
+}
+
+// Color of a surface, and its share: 0 in water and at the edge of the image. `at`: of the ray, at the surface. Reflections
+// lie below what they show, so they end at the upper edge, and fade there.
+vec4 seenAt(vec3 at, vec2 onScreen) {
     // Pixels at the shore line have both land and water: the pixels above are read.
     ivec2 pixel = pixelAt(at.xy), up = ivec2(sign(onScreen));
     for (int k = 0; k < 3 && hasLayer(pixel); ++k) pixel = clamp(pixel + up, ivec2(0), ivec2(frame.viewportSize) - 1);
-    if (hasLayer(pixel)) share = 0.0;
-    vec2 edge = 1.0 - smoothstep(0.8, 1.0, abs(at.xy));
-    vec3 color = share > 0.0 ? texelFetch(scene, pixel, 0).rgb : vec3(0.0);
-    return vec4(color, share * edge.x * edge.y);
+    vec2 edge = 1.0 - smoothstep(vec2(0.96, 0.8), vec2(1.0), abs(at.xy));
+    return hasLayer(pixel) ? vec4(0.0) : vec4(texelFetch(scene, pixel, 0).rgb, edge.x * edge.y);
 }
 
 // Screen positions and depths are linear along the ray (depth is near / distance), up to its end at infinity.
@@ -52,8 +53,8 @@ vec4 shoreReflection(vec3 position, vec3 direction, float mirror) {
     for (; k <= count && !isHit; ++k) {
         float share = float(k) / float(kMarchSteps);
         before = here;
-        here = share * share;
-        isHit = isBehind(start + here * way);
+        here = share * sqrt(share);  // shorter near the water, where the shore is
+        isHit = isHitBetween(start + before * way, start + here * way);
     }
     int refined = isHit ? kRefineSteps : 0;
     for (int r = 0; r < refined; ++r) {
@@ -62,7 +63,9 @@ vec4 shoreReflection(vec3 position, vec3 direction, float mirror) {
         here = isIn ? middle : here;
         before = isIn ? before : middle;
     }
-    vec4 result = isHit ? seenBehind(start + before * way, start + here * way, way.xy) : vec4(0.0);
+    // A long step may have passed above what it seems to end in.
+    isHit = isHit && isHitBetween(start + before * way, start + here * way);
+    vec4 result = isHit ? seenAt(start + here * way, way.xy) : vec4(0.0);
     result.a *= smoothstep(kLeastMirror, 2.0 * kLeastMirror, mirror);
     return result;
 }

@@ -51,9 +51,13 @@ Waves wavesAt(vec3 position, vec3 toPoint, float open) {
     float height = mix(0.28, 0.55, open), shown = 1.0 / (1.0 + 0.02 * length(toPoint));
     Waves waves = Waves(height * shown * (slow + 0.6 * fast), 0.0015 + 0.06 * height * height * (1.0 - shown * shown));
 #if WATER_DETAIL == 1
-    addSwell(waves, vec2(4.0, 1.0), 0.050 * open, at, dx, dy);
-    addSwell(waves, vec2(7.0, 4.0), 0.045 * open, at, dx, dy);
-    addSwell(waves, vec2(12.0, 3.0), 0.040 * open, at, dx, dy);
+    // Around the wind, in groups that come and go.
+    vec2 groups = 2.0 * open * textureGrad(noiseTexture, at / 64.0, dx / 64.0, dy / 64.0).rg;
+    addSwell(waves, vec2(3.0, 1.0), 0.040 * groups.x, at, dx, dy);
+    addSwell(waves, vec2(5.0, -2.0), 0.040 * groups.y, at, dx, dy);
+    addSwell(waves, vec2(7.0, 6.0), 0.036 * groups.x, at, dx, dy);
+    addSwell(waves, vec2(12.0, -5.0), 0.032 * groups.y, at, dx, dy);
+    addSwell(waves, vec2(9.0, 13.0), 0.028 * groups.x, at, dx, dy);
 #endif
     return waves;
 }
