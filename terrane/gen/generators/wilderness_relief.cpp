@@ -70,11 +70,14 @@ Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& i
     const Float table = tableShare(p, f, canyon) * kTableRise;
     Var<Float> rise = p.var(side + edge * table);
     const Float sides = steep + edgeSteep * table * (1.0f / kTableEdge);
-    // A trough: steep walls, shoulders above them. Side valleys hang above the floor of the main one.
+    // A trough: steep walls, shoulders above them, some wide enough for meadows. Side valleys hang above the
+    // floor of the main one.
     p.if_(ice.share > 0.0f, [&] {
         const Float wall = smoothstep(0.0f, 75.0f, beside) * (ice.main * 90.0f + 70.0f);
-        const Float shoulder = max(beside - 60.0f, Float(0.0f));
-        const Float trough = wall + shoulder * steep * (shoulder * 0.003f + 0.75f);
+        const Float wide = clamp((varied - 0.75f) * 140.0f, 0.0f, 70.0f);
+        const Float shoulder = max(beside - 60.0f, Float(0.0f)), above = max(shoulder - wide, Float(0.0f));
+        const Float trough =
+            wall + min(shoulder, wide) * 0.3f + above * steep * (above * 0.003f + wide * 0.005f + 0.75f);
         const Float hanging = smoothstep(7.0f, 3.0f, ice.flow) * 36.0f;
         rise = lerp(static_cast<Float>(rise), trough + hanging, ice.share * 0.85f);
     });
@@ -291,20 +294,33 @@ Steps stepsOf(Float even, Float gradient) {
             share > 0.5f && part > 1.0f - gradient * kSheet / fall};
 }
 
-// Where a large river meets the sea it leaves a delta: flats of silt on both sides of the shore, which its
+// Share: an arm of a river that splits. Arms part from the river `fromFork` blocks inland of here, at angles
+// of these slopes to either side, and wind; the river goes on between them.
+Float armOf(Pass& p, const DrainageSample& r, Float fromFork) {
+    constexpr float kSlopes[] = {0.25f, 0.6f, 1.15f};
+    constexpr float kHalfWidth = 4.5f;  // blocks
+    const Float winding = p.perlin2D("arms of deltas", 36, {.16f, .3f}) * fromFork;
+    Float near = r.distance - r.halfWidth * 0.7f + kHalfWidth;
+    for (const float slope : kSlopes) near = min(near, abs(r.distance + winding - fromFork * slope));
+    return smoothstep(kHalfWidth, kHalfWidth - 2.5f, near);
+}
+
+// Where a large river meets the sea it leaves a delta: a fan of silt on both sides of the shore, which its
 // arms part, at the level of the sea.
 Float withDelta(Pass& p, const Fields& f, const DrainageSample& r, Float ground) {
+    constexpr float kFork = 0.075f, kShore = 2600.0f;  // land where arms part; blocks by land near the shore
     const Float land = p.read(f.land);
-    const Float delta = smoothstep(22.0f, 40.0f, r.flow) * smoothstep(210.0f, 60.0f, r.distance) *
-                        smoothstep(0.07f, 0.025f, abs(land)) * smoothstep(9.0f, 4.0f, r.level) *
-                        smoothstep(0.25f, 0.1f, p.read(f.range));
+    const Float fromFork = (kFork - land) * kShore;
+    const Float delta = smoothstep(16.0f, 34.0f, r.flow) * smoothstep(9.0f, 4.0f, r.level) *
+                        smoothstep(250.0f, 100.0f, r.distance) *
+                        smoothstep(1.5f, 0.9f, r.distance / max(fromFork, Float(20.0f))) *
+                        smoothstep(kFork, 0.03f, abs(land)) * smoothstep(0.25f, 0.1f, p.read(f.range));
     Var<Float> height = p.var(ground);
     p.if_(delta > 0.0f, [&] {
-        const Float lines = abs(p.perlin2D("arms of deltas", 36, {.35f, 1.0f}));
         const Float flats = p.perlin2D("flats of deltas", 24, {.5f, 1.0f});
-        const Float silt = clamp(ground, kSea - 2.2f + delta * 2.6f, Float(kSea + 1.5f)) + flats * 0.7f;
-        const Float arms = smoothstep(0.13f, 0.06f, lines) * smoothstep(0.1f, 0.4f, delta);
-        height = lerp(ground, silt - arms * 3.0f, smoothstep(0.0f, 0.3f, delta));
+        const Float silt = clamp(ground, kSea - 2.2f + delta * 3.4f, Float(kSea + 1.5f)) + flats * 0.7f;
+        const Float arms = armOf(p, r, fromFork) * smoothstep(0.0f, 0.2f, delta);
+        height = lerp(ground, lerp(silt, Float(kSea - 2.4f), arms), smoothstep(0.0f, 0.3f, delta));
     });
     return height;
 }
@@ -325,17 +341,21 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         // Narrow here and wide there, with bays and points. A core stays open.
         const Float rough = p.perlin2D("banks", 8, {.5f, 1.0f});
         const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f}) * (r.halfWidth * 0.28f + 0.8f);
-        const Float channel = min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.3f);
+        const Float channel =
+            min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.8f + rough * 0.5f);
         const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;    // share: at the foot of a fall
         const Float fromBank = channel - below * (s.fall * 0.2f + 0.8f);  // the pool that it dug
         const Float across = clamp(r.distance / max(r.halfWidth, Float(1.0f)), 0.0f, 1.0f);
         const Float bed = s.level - 0.6f - (1.0f - across * across) * (r.halfWidth * 0.3f + 0.8f) -
                           below * (s.fall * 0.16f + 1.0f);
         // Banks slope down to the pools, with rock on both sides of a fall, which holds the water before it.
-        const Float beside = smoothstep(0.75f, 0.96f, s.part), away = max(fromBank, Float(0.0f));
-        const Float slope = s.level + 0.8f + away * (rough * 0.4f + 0.7f) + beside * (s.fall + 4.0f);
+        const Float beside = smoothstep(0.75f, 0.96f, s.part), holds = smoothstep(0.9f, 0.98f, s.part);
+        const Float away = max(fromBank, Float(0.0f));
+        // It climbs from the pool in crags: a wall would be a row of straight columns.
+        const Float rock = beside * (s.fall + 4.0f), crags = min(rock, away * (rough * 1.5f + 3.5f) + 1.0f);
+        const Float slope = s.level + 0.8f + away * (rough * 0.4f + 0.7f) + lerp(crags, rock, holds);
         const Float lowered = lerp(ground, min(ground, slope), s.share * smoothstep(70.0f, 40.0f, away));
-        const Float bank = lerp(s.level + 0.8f, even + 0.9f + r.fall, lerp(Float(1.0f), beside, s.share));
+        const Float bank = lerp(s.level + 0.8f, even + 0.9f + r.fall, lerp(Float(1.0f), holds, s.share));
         // Water above the sea needs banks; at the sea's level the ground may be lower beside it.
         const Float raised = max(lowered, lerp(bank, lowered, smoothstep(0.0f, 14.0f, away)));
         const Float outside = lerp(ground, raised, clamp((s.level - kSea - 0.5f) * 2.0f, 0.0f, 1.0f));
@@ -347,7 +367,8 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         wet = smoothstep(12.0f, 2.0f, fromBank);
         const Float foam = rough * 2.0f + (kSheet + kFoam);
         const Bool isFoam = s.share > 0.5f && isOpen && s.part > 1.0f - r.fall * foam / s.fall;
-        fall = select(isSheet, Int(floor(top)) - Int(floor(s.level)), select(isFoam, Int(1), Int(0)));
+        fall =
+            select(isSheet, Int(floor(top)) - Int(floor(s.level)), select(isFoam, Int(kFoamBelow), Int(0)));
     });
     // Pools of marshes, as high as the river beside them, with rims.
     const Float fromBank = r.distance - r.halfWidth;
