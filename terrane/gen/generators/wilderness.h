@@ -13,6 +13,7 @@ namespace terrane::gen::wilderness {
 constexpr int kSeaZ = 0;      // z of the highest water of the sea
 constexpr int kCloudZ = 640;  // where clouds float: below the peaks of ranges, whose median is 1,015
 constexpr float kSea = static_cast<float>(kSeaZ);
+constexpr float kColder = 0.00062f;  // by block of height: the snow line of a temperate land is near 1,000
 
 // In the order of their numbers in Fields::biome.
 enum class Biome {

@@ -70,14 +70,11 @@ Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& i
     const Float table = tableShare(p, f, canyon) * kTableRise;
     Var<Float> rise = p.var(side + edge * table);
     const Float sides = steep + edgeSteep * table * (1.0f / kTableEdge);
-    // A trough: steep walls, shoulders above them, some wide enough for meadows. Side valleys hang above the
-    // floor of the main one.
+    // A trough: steep walls, shoulders above them. Side valleys hang above the floor of the main one.
     p.if_(ice.share > 0.0f, [&] {
         const Float wall = smoothstep(0.0f, 75.0f, beside) * (ice.main * 90.0f + 70.0f);
-        const Float wide = clamp((varied - 0.75f) * 140.0f, 0.0f, 70.0f);
-        const Float shoulder = max(beside - 60.0f, Float(0.0f)), above = max(shoulder - wide, Float(0.0f));
-        const Float trough =
-            wall + min(shoulder, wide) * 0.3f + above * steep * (above * 0.003f + wide * 0.005f + 0.75f);
+        const Float shoulder = max(beside - 60.0f, Float(0.0f));
+        const Float trough = wall + shoulder * steep * (shoulder * 0.003f + 0.75f);
         const Float hanging = smoothstep(7.0f, 3.0f, ice.flow) * 36.0f;
         rise = lerp(static_cast<Float>(rise), trough + hanging, ice.share * 0.85f);
     });
@@ -343,13 +340,16 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f}) * (r.halfWidth * 0.28f + 0.8f);
         const Float channel =
             min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.8f + rough * 0.5f);
-        const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;    // share: at the foot of a fall
-        const Float fromBank = channel - below * (s.fall * 0.2f + 0.8f);  // the pool that it dug
+        const Float before =
+            (1.0f - s.part) * s.fall / max(r.fall, Float(0.01f));       // blocks to the fall above
+        const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;  // share: at the foot of a fall
+        // The pool that it dug, round at the fall.
+        const Float fromBank = channel - below * smoothstep(0.0f, 9.0f, before) * (s.fall * 0.2f + 0.8f);
         const Float across = clamp(r.distance / max(r.halfWidth, Float(1.0f)), 0.0f, 1.0f);
         const Float bed = s.level - 0.6f - (1.0f - across * across) * (r.halfWidth * 0.3f + 0.8f) -
                           below * (s.fall * 0.16f + 1.0f);
         // Banks slope down to the pools, with rock on both sides of a fall, which holds the water before it.
-        const Float beside = smoothstep(0.75f, 0.96f, s.part), holds = smoothstep(0.9f, 0.98f, s.part);
+        const Float beside = smoothstep(0.75f, 0.96f, s.part), holds = smoothstep(4.5f, 2.5f, before);
         const Float away = max(fromBank, Float(0.0f));
         // It climbs from the pool in crags: a wall would be a row of straight columns.
         const Float rock = beside * (s.fall + 4.0f), crags = min(rock, away * (rough * 1.5f + 3.5f) + 1.0f);

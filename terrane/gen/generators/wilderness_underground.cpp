@@ -36,7 +36,6 @@ constexpr int kNowhere = -10000;                  // z
 constexpr float kFar = kNowhere;
 constexpr float kFewest = 0.25f;  // share of caves below which there are only tunnels
 constexpr float kStem = 40;       // blocks: stems of mushrooms reach into the ground
-constexpr int kDruse = 9;         // blocks of crystal behind the surface of a roof
 
 std::string named(const StoreyKind& kind, const char* what) {
     return std::string(kind.name) + " cave " + what;
@@ -110,10 +109,10 @@ Drip drip(Pass& p, Float gap, Float chance) {
 
 // What the walls and the ground of a storey's caves are made of.
 struct Lining {
-    Block wall, ground;
-    Float drips;     // share of the places for stalactites that have one
-    Float crystals;  // share of these that are crystals
-    Float fungus;    // share
+    Block wall, ground;  // a wall of "crystal": rock with lumps of it
+    Float drips;         // share of the places for stalactites that have one
+    Float crystals;      // share of these that are crystals
+    Float fungus;        // share
 };
 
 Lining liningOf(Pass& p, const Fields& f, int storey, const Country& c, Bool isBuried) {
@@ -131,7 +130,7 @@ Lining liningOf(Pass& p, const Fields& f, int storey, const Country& c, Bool isB
     // Crystals in walls and roofs, more of them in the depth, so that one sees how large a room is.
     const Bool isLit = patches < (isUnderSky ? -0.62f : -0.5f) && isBuried;
     const Block mossy = select(patches > 0.1f, block("mossy_stone"), rock);
-    return {multiSelect({{isLit, block("crystal_rock")},
+    return {multiSelect({{isLit, block("crystal")},
                          {isIce, select(patches > 0.55f, block("snow"), block("ice"))},
                          {isHot, block("basalt")},
                          {isCrystal, druse},
@@ -379,6 +378,7 @@ Block withCaves(Pass& p, const Fields& f, Block rock) {
     const Int z = p.z();
     Var<Block> block = p.var(rock), liquid = p.var(p.block("air"));
     Var<Bool> isOpen = p.var(Bool(false)), isLake = p.var(Bool(false)), isRoom = p.var(Bool(false));
+    const Int bend = Int(p.perlin2D("lumps", 24, {12.0f, 20.0f}) + 64.0f);
     for (int k = 0; k < kStoreys; ++k) {
         const Storey& s = caves.storeys[k];
         if (kKinds[k].lake != kNoLake) {
@@ -398,8 +398,9 @@ Block withCaves(Pass& p, const Fields& f, Block rock) {
             isOpen = isOpen || (z > p.read(s.floor) && z < p.read(s.roof));
             isRoom = isRoom || p.read(s.floor) < -kNowhere;
             const Block wall = p.read(s.wall);
-            const Bool isBehind = wall == p.block("crystal_rock") && z > p.read(s.roof) + kDruse;
-            block = multiSelect({{z <= p.read(s.floor), p.read(s.ground)}, {isBehind, rock}}, wall);
+            const Block lumps = select(((z + bend) & 31) < 13, p.block("crystal_rock"), rock);
+            block = multiSelect(
+                {{z <= p.read(s.floor), p.read(s.ground)}, {wall == p.block("crystal"), lumps}}, wall);
         });
     }
     p.if_(z > p.heights().bottom + 2 && z < p.read(f.caveTop) && !isLake && !isRoom, [&] {
