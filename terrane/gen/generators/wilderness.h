@@ -13,7 +13,6 @@ namespace terrane::gen::wilderness {
 constexpr int kSeaZ = 0;      // z of the highest water of the sea
 constexpr int kCloudZ = 640;  // where clouds float: below the peaks of ranges, whose median is 1,015
 constexpr float kSea = static_cast<float>(kSeaZ);
-constexpr float kColder = 0.00062f;  // by block of height: the snow line of a temperate land is near 1,000
 
 // In the order of their numbers in Fields::biome.
 enum class Biome {
@@ -149,6 +148,8 @@ void underSurfacePass(Pass& p, const Fields& f);  // wilderness_underground.cpp;
 // A 2D pass for the tint alone.
 void colorPass(Pass& p, const Fields& f);
 
+// Blocks by which strata are bent up or down.
+Float bendOfStrata(Pass& p);
 // Returns the block of earth, caves, water and plants at this voxel of a 3D pass (wilderness_ground.cpp).
 Block landBlock(Pass& p, const Fields& f);
 // For level 0 (wilderness_underground.cpp): whether a cave is open to the sky here; rock with caves and what

@@ -9,6 +9,8 @@ namespace terrane::gen::wilderness {
 
 namespace {
 
+constexpr float kColder = 0.00062f;  // by block of height: the snow line of a temperate land is near 1,000
+
 // Inputs to the choice of a biome. Noise in temperature and moisture roughens borders.
 struct Site {
     Float height, steepness, temperature, moisture;

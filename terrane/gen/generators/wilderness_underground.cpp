@@ -378,7 +378,7 @@ Block withCaves(Pass& p, const Fields& f, Block rock) {
     const Int z = p.z();
     Var<Block> block = p.var(rock), liquid = p.var(p.block("air"));
     Var<Bool> isOpen = p.var(Bool(false)), isLake = p.var(Bool(false)), isRoom = p.var(Bool(false));
-    const Int bend = Int(p.perlin2D("lumps", 24, {12.0f, 20.0f}) + 64.0f);
+    const Int bend = Int(bendOfStrata(p) * 6.0f + 128.0f);  // of layers with lumps of crystal
     for (int k = 0; k < kStoreys; ++k) {
         const Storey& s = caves.storeys[k];
         if (kKinds[k].lake != kNoLake) {
