@@ -75,8 +75,8 @@ struct CaveFields {
     Field<Int> riverFloor, riverRoof, riverTop, riverSeal;
 };
 // At the foot of a fall the second block from the surface is foam: white water fills its cell, the surface of
-// water lies lower.
-constexpr int kFoamBelow = -1;
+// water lies lower. All falls are higher.
+constexpr int kFoamMark = 2;
 constexpr int kShaftMark = 64;  // blocks of `caveTop` above the surface in shafts
 
 // Rare places (wilderness_places.cpp). Fields::placeKind has their numbers.
@@ -110,7 +110,7 @@ struct Fields {
     Field<Float> rocky;   // share: bare whatever its slope
     Field<Float> wet;     // share: in a river or lake, or on its bank
     Field<Int> water;     // z of the highest water, where the ground is lower
-    Field<Int> fall;      // blocks of white water, down from `water`: of a fall; or kFoamBelow
+    Field<Int> fall;      // blocks of white water, down from `water`: of a fall; or kFoamMark
     Field<Int> surface;   // z of the highest ground block
     // The place of this square of the land: its kind or -1, and blocks to its point.
     Field<Int> placeKind, placeX, placeY;

@@ -94,8 +94,8 @@ Block landBlock(Pass& p, const Fields& f) {
         z <= p.read(f.surface), [&] { block = earth(p, f); },
         [&] {
             const Int fall = p.read(f.fall);
-            const Bool isFoam = fall == kFoamBelow && z == water + kFoamBelow;
-            const Bool isWhite = z > water - fall || isFoam, isFrozen = p.read(f.cold) < -0.7f;
+            const Bool isWhite = z > water - fall && z < water + fall - kFoamMark,
+                       isFrozen = p.read(f.cold) < -0.7f;
             const Block liquid = multiSelect({{p.read(f.isLava), p.block("lava")},
                                               {isFrozen && (z == water || isWhite), p.block("ice")},
                                               {isWhite, p.block("white_water")}},

@@ -80,7 +80,9 @@ Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& i
     });
     // Walls with terraces, then a flat top.
     p.if_(canyon > 0.0f, [&] {
-        const Float wall = smoothstep(6.0f, 75.0f, beside + p.simplex2D("walls", 32, {.3f, 1.0f}) * 14.0f);
+        // Fine noise, too: else walls are rows of straight columns.
+        const Float bays = p.simplex2D("walls", 8, {.11f, .18f, .3f, 1.0f}) * 14.0f;
+        const Float wall = smoothstep(6.0f, 75.0f, beside + bays);
         const Float walls = landforms::terraces(wall * 190.0f, 31.0f, 4.0f) + beside * 0.02f;
         rise = lerp(static_cast<Float>(rise), walls, canyon);
     });
@@ -334,12 +336,13 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
     p.if_(r.distance < 72.0f && land > -0.02f, [&] {
         // To the coast the land, and the water with it, falls to the level of the sea.
         const Float even = min(r.level, max(p.read(f.base) - 1.0f, Float(kSea + 0.5f)));
-        const Steps s = stepsOf(even, r.fall);
         // Narrow here and wide there, with bays and points. A core stays open.
         const Float rough = p.perlin2D("banks", 8, {.5f, 1.0f});
-        const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f}) * (r.halfWidth * 0.28f + 0.8f);
+        const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f});
         const Float channel =
-            min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.8f + rough * 0.5f);
+            min(r.distance - r.halfWidth + rough * 0.4f + bays * (r.halfWidth * 0.28f + 0.8f),
+                r.distance - 1.8f + rough * 0.5f);
+        const Steps s = stepsOf(even, r.fall);
         const Float before =
             (1.0f - s.part) * s.fall / max(r.fall, Float(0.01f));       // blocks to the fall above
         const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;  // share: at the foot of a fall
@@ -351,8 +354,9 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         // Banks slope down to the pools, with rock on both sides of a fall, which holds the water before it.
         const Float beside = smoothstep(0.75f, 0.96f, s.part), holds = smoothstep(4.5f, 2.5f, before);
         const Float away = max(fromBank, Float(0.0f));
-        // It climbs from the pool in crags: a wall would be a row of straight columns.
-        const Float rock = beside * (s.fall + 4.0f), crags = min(rock, away * (rough * 1.5f + 3.5f) + 1.0f);
+        // It climbs from the pool in crags.
+        const Float rock = beside * (s.fall + rough * 2.0f + 5.0f),
+                    crags = min(rock, away * (rough * 1.5f + 3.5f) + 1.0f);
         const Float slope = s.level + 0.8f + away * (rough * 0.4f + 0.7f) + lerp(crags, rock, holds);
         const Float lowered = lerp(ground, min(ground, slope), s.share * smoothstep(70.0f, 40.0f, away));
         const Float bank = lerp(s.level + 0.8f, even + 0.9f + r.fall, lerp(Float(1.0f), holds, s.share));
@@ -367,8 +371,7 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         wet = smoothstep(12.0f, 2.0f, fromBank);
         const Float foam = rough * 2.0f + (kSheet + kFoam);
         const Bool isFoam = s.share > 0.5f && isOpen && s.part > 1.0f - r.fall * foam / s.fall;
-        fall =
-            select(isSheet, Int(floor(top)) - Int(floor(s.level)), select(isFoam, Int(kFoamBelow), Int(0)));
+        fall = select(isSheet, Int(floor(top)) - Int(floor(s.level)), select(isFoam, Int(kFoamMark), Int(0)));
     });
     // Pools of marshes, as high as the river beside them, with rims.
     const Float fromBank = r.distance - r.halfWidth;
