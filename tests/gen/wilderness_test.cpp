@@ -76,12 +76,12 @@ TEST(WildernessCaves, HaveGreatRooms) {
 
 // Light at all heights of the room near 369, 914, from crystals beside open ground.
 TEST(WildernessCaves, GreatRoomsHaveCrystalsUpToTheirRoofs) {
-    const Area area(generatorOf("wilderness", 1), {22, 56}, 3);
+    const Area area(generatorOf("wilderness", 1), {20, 54}, 6);
     const BlockId crystal = idOf("crystal_rock");
     int lowest = 0, highest = -512, count = 0;
-    for (int y = 1; y < 47; ++y) {
-        for (int x = 1; x < 47; ++x) {
-            for (int z = -200; z < -60; ++z) {
+    for (int y = 1; y < 95; ++y) {
+        for (int x = 1; x < 95; ++x) {
+            for (int z = -200; z < -30; ++z) {
                 const bool isOpen =
                     area.at(x - 1, y, z) == world::kAir || area.at(x + 1, y, z) == world::kAir ||
                     area.at(x, y, z - 1) == world::kAir || area.at(x, y, z + 1) == world::kAir;
