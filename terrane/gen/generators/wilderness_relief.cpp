@@ -80,9 +80,7 @@ Side sideOf(Pass& p, const Fields& f, Float canyon, Float straight, const Ice& i
     });
     // Walls with terraces, then a flat top.
     p.if_(canyon > 0.0f, [&] {
-        // Fine noise, too: else walls are rows of straight columns.
-        const Float bays = p.simplex2D("walls", 8, {.11f, .18f, .3f, 1.0f}) * 14.0f;
-        const Float wall = smoothstep(6.0f, 75.0f, beside + bays);
+        const Float wall = smoothstep(6.0f, 75.0f, beside + p.simplex2D("walls", 32, {.3f, 1.0f}) * 14.0f);
         const Float walls = landforms::terraces(wall * 190.0f, 31.0f, 4.0f) + beside * 0.02f;
         rise = lerp(static_cast<Float>(rise), walls, canyon);
     });
