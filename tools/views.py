@@ -159,9 +159,13 @@ def towers(land):
     return np.where(tall & is_rock & ~land.is_water, share_around(land.is_sea, land.cells_of(300)), 0)
 
 
+def meadow_ground(land):
+    return land.is_biome("alpine meadow") & land.is_block("grass", "grass_tuft", "oxeye_daisy", "bluebell", "poppy", "heather")
+
+
 def meadows(land):
-    gentle = relief(land, 64) < 45
-    return np.where(land.is_biome("alpine meadow") & gentle, relief(land, 3000) - 500, 0).clip(0)
+    grown = (share_around(meadow_ground(land), land.cells_of(100)) - 0.4).clip(0)
+    return np.where(meadow_ground(land), grown * (relief(land, 3000) - 500), 0).clip(0)
 
 
 def river_mouths(land):
@@ -226,8 +230,7 @@ KINDS = {
     "karst": Kind("a bay with towers of limestone", towers, 0.3, (150, 600), (5, 25), stands="water", aim=-10,
                   wanted=lambda land: land.is_block("limestone"), criteria=wants(wanted=(0.01, 0.05, 0.4, 0.7))),
     "meadow": Kind("an alpine meadow", meadows, 0.4, (60, 250), (3, 8), stands="land", aim=30,
-                   wanted=lambda land: land.is_biome("alpine meadow"),
-                   criteria=wants(wanted=(0.05, 0.2, 0.6, 0.8), rough=(1, 4, 30, 60))),
+                   wanted=meadow_ground, criteria=wants(wanted=(0.05, 0.2, 0.6, 0.8), rough=(1, 4, 30, 60))),
     "cave": Kind("a great cave", lambda land: np.zeros_like(land.top), 0.5, (0, 0), (0,)),  # find_caves()
     "river": Kind("a river or delta at dusk", river_mouths, 0.775, (200, 700), (40, 90), yaw=0, aim=-10,
                   criteria=wants(wanted=(0.01, 0.06, 0.4, 0.7))),

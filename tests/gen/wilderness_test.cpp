@@ -74,6 +74,28 @@ TEST(WildernessCaves, HaveGreatRooms) {
     }
 }
 
+// Light at all heights of the room near 369, 914, from crystals beside open ground.
+TEST(WildernessCaves, GreatRoomsHaveCrystalsUpToTheirRoofs) {
+    const Area area(generatorOf("wilderness", 1), {20, 54}, 6);
+    const BlockId crystal = idOf("crystal_rock");
+    int lowest = 0, highest = -512, count = 0;
+    for (int y = 1; y < 95; ++y) {
+        for (int x = 1; x < 95; ++x) {
+            for (int z = -200; z < -30; ++z) {
+                const bool isOpen =
+                    area.at(x - 1, y, z) == world::kAir || area.at(x + 1, y, z) == world::kAir ||
+                    area.at(x, y, z - 1) == world::kAir || area.at(x, y, z + 1) == world::kAir;
+                if (area.at(x, y, z) != crystal || !isOpen) continue;
+                ++count;
+                lowest = std::min(lowest, z);
+                highest = std::max(highest, z);
+            }
+        }
+    }
+    EXPECT_GT(count, 200);
+    EXPECT_GT(highest - lowest, 60);
+}
+
 TEST(WildernessCaves, AreOfIceOnlyWhereItIsCold) {
     const Columns columns;
     const BlockId ice = idOf("ice");
@@ -162,24 +184,28 @@ TEST(WildernessWater, IsHeldByItsBanks) {
     }
 }
 
-// White water falls from pool to pool: below each block of it is more, water or ground.
+// White water falls from pool to pool: below each block of it is more, water or ground. Foam is below the
+// surface.
 TEST(WildernessWater, FallsAreWhiteDownToTheirPools) {
     const Area area(generatorOf("wilderness", 1), {-57, 216}, 3);
     const BlockId white = idOf("white_water"), water = idOf("water");
-    int blocks = 0, onWater = 0;
+    int blocks = 0, onWater = 0, foam = 0;
     for (int y = 0; y < 48; ++y) {
         for (int x = 0; x < 48; ++x) {
             for (int z = 1; z < 400; ++z) {
                 if (area.at(x, y, z) != white) continue;
-                const BlockId below = area.at(x, y, z - 1);
+                const BlockId below = area.at(x, y, z - 1), above = area.at(x, y, z + 1);
                 ASSERT_NE(below, world::kAir) << area.where(x, y, z);
+                ASSERT_TRUE(below == white || above == white || above == water) << area.where(x, y, z);
                 ++blocks;
                 onWater += below == water;
+                foam += above == water;
             }
         }
     }
     EXPECT_GT(blocks, 60);
     EXPECT_GT(onWater, 6) << "foam, and falls that end in their pools";
+    EXPECT_GT(foam, 6);
 }
 
 // A column of each kind of place that shows that it is there, within 8 km.

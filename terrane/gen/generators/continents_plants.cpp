@@ -105,7 +105,7 @@ const vegetation::Tables& vegetationTables() {
 
 void plantsPass(Pass& p, const Fields& f) {
     const Float share = select(canGrow(p, f), vegetation::woodland(p, p.read(f.forest)), Float(0.0f));
-    vegetation::setShapes(p, f.plants, kTables, {p.read(f.biome), share, p.read(f.surface)});
+    vegetation::setShapes(p, f.plants, kTables, {p.read(f.biome), share, share, p.read(f.surface)});
     if (p.step() > 1) return;
     vegetation::setPlants(p, f.plants, kTables,
                           {p.read(f.biome), p.read(f.top), p.read(f.water) - p.read(f.surface),

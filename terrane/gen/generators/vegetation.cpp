@@ -145,7 +145,9 @@ void setShapes(Pass& p, const Fields& f, const Tables& tables, const Site& site)
     if (site.placed) tree = select(*site.placed >= 0, *site.placed, tree);
     p.set(f.tree, tree);
     if (p.step() > kMaxSmallStep) return;
-    p.set(f.small, shapeAt(p, f, tables.small, site, scatter(p, "small things", kSmallSpacing, 4)));
+    Site low = site;
+    low.share = site.smallShare;
+    p.set(f.small, shapeAt(p, f, tables.small, low, scatter(p, "small things", kSmallSpacing, 4)));
 }
 
 void setPlants(Pass& p, const Fields& f, const Tables& tables, const PlantSite& site) {

@@ -66,7 +66,7 @@ struct Fields {
 
 struct Site {
     Int biome;
-    Float share;                     // 0…1: of the shares in the tables
+    Float share, smallShare;         // 0…1: of the shares of trees, and of small things, in the tables
     Int surface;                     // z of the highest ground block
     std::optional<Int> placed = {};  // number of a shape that stands here whatever the tables say, or -1
 };

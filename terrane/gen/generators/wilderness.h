@@ -74,6 +74,9 @@ struct CaveFields {
     // A river below a stream; z above which, up to the water, no other cave opens its bed.
     Field<Int> riverFloor, riverRoof, riverTop, riverSeal;
 };
+// At the foot of a fall the second block from the surface is foam: white water fills its cell, the surface of
+// water lies lower. All falls are higher.
+constexpr int kFoamMark = 2;
 constexpr int kShaftMark = 64;  // blocks of `caveTop` above the surface in shafts
 
 // Rare places (wilderness_places.cpp). Fields::placeKind has their numbers.
@@ -107,7 +110,7 @@ struct Fields {
     Field<Float> rocky;   // share: bare whatever its slope
     Field<Float> wet;     // share: in a river or lake, or on its bank
     Field<Int> water;     // z of the highest water, where the ground is lower
-    Field<Int> fall;      // blocks of white water, down from `water`: of a fall, of foam at its foot
+    Field<Int> fall;      // blocks of white water, down from `water`: of a fall; or kFoamMark
     Field<Int> surface;   // z of the highest ground block
     // The place of this square of the land: its kind or -1, and blocks to its point.
     Field<Int> placeKind, placeX, placeY;
@@ -145,6 +148,8 @@ void underSurfacePass(Pass& p, const Fields& f);  // wilderness_underground.cpp;
 // A 2D pass for the tint alone.
 void colorPass(Pass& p, const Fields& f);
 
+// Blocks by which strata are bent up or down.
+Float bendOfStrata(Pass& p);
 // Returns the block of earth, caves, water and plants at this voxel of a 3D pass (wilderness_ground.cpp).
 Block landBlock(Pass& p, const Fields& f);
 // For level 0 (wilderness_underground.cpp): whether a cave is open to the sky here; rock with caves and what

@@ -33,7 +33,7 @@ Int half(Bands bands, int shift) {
 Block strata(Pass& p, const Fields& f) {
     const Block rock = p.read(f.rock);
     const Bool isRed = rock == p.block("red_sandstone"), isChalk = rock == p.block("limestone");
-    const Int bend = Int(p.perlin2D("strata", 64, {1.5f, 3.0f, 6.0f}) + 16.0f);
+    const Int bend = Int(bendOfStrata(p) + 16.0f);
     const Int at = (p.z() + bend) & 63;
     const Bool isUpper = at >= 32;
     const auto isIn = [&](Int lower, Int upper) { return (select(isUpper, upper, lower) >> at & 1) == 1; };
@@ -83,13 +83,19 @@ Block earth(Pass& p, const Fields& f) {
 
 }  // namespace
 
+Float bendOfStrata(Pass& p) {
+    return p.perlin2D("strata", 64, {1.5f, 3.0f, 6.0f});
+}
+
 Block landBlock(Pass& p, const Fields& f) {
     const Int z = p.z(), water = p.read(f.water);
     Var<Block> block = p.var(p.block("air"));
     p.if_(
         z <= p.read(f.surface), [&] { block = earth(p, f); },
         [&] {
-            const Bool isWhite = z > water - p.read(f.fall), isFrozen = p.read(f.cold) < -0.7f;
+            const Int fall = p.read(f.fall);
+            const Bool isWhite = z > water - fall && z < water + fall - kFoamMark,
+                       isFrozen = p.read(f.cold) < -0.7f;
             const Block liquid = multiSelect({{p.read(f.isLava), p.block("lava")},
                                               {isFrozen && (z == water || isWhite), p.block("ice")},
                                               {isWhite, p.block("white_water")}},

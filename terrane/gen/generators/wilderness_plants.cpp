@@ -68,9 +68,9 @@ constexpr Grove kTrees[] = {
     {Biome::Tundra, Kind::Krummholz, 0.012f},
     {Biome::Snow, Kind::Spruce, 0.02f},
     {Biome::Snow, Kind::YoungSpruce, 0.02f},
-    {Biome::AlpineMeadow, Kind::Krummholz, 0.06f},
-    {Biome::AlpineMeadow, Kind::Larch, 0.015f},
-    {Biome::AlpineMeadow, Kind::Pine, 0.015f},
+    {Biome::AlpineMeadow, Kind::Krummholz, 0.24f},
+    {Biome::AlpineMeadow, Kind::Larch, 0.16f},
+    {Biome::AlpineMeadow, Kind::Pine, 0.12f},
     {Biome::Rocks, Kind::Krummholz, 0.01f},
     {Biome::Savanna, Kind::Acacia, 0.07f},
     {Biome::Savanna, Kind::Baobab, 0.006f},
@@ -140,7 +140,8 @@ constexpr Grove kSmall[] = {
     {Biome::LarchForest, Kind::Bush, 0.04f},
     {Biome::Tundra, Kind::Boulder, 0.03f},
     {Biome::Snow, Kind::Boulder, 0.02f},
-    {Biome::AlpineMeadow, Kind::Boulder, 0.05f},
+    {Biome::AlpineMeadow, Kind::Boulder, 0.06f},
+    {Biome::AlpineMeadow, Kind::Bush, 0.06f},
     {Biome::Rocks, Kind::Boulder, 0.04f},
     {Biome::StonyShore, Kind::Boulder, 0.1f},
     {Biome::Savanna, Kind::Bush, 0.05f},
@@ -190,10 +191,11 @@ constexpr Plant kPlants[] = {
     {Biome::Tundra, "grass_tuft", 0.06f},
     {Biome::Bog, "heather", 0.2f},
     {Biome::Bog, "tall_grass", 0.1f},
-    {Biome::AlpineMeadow, "grass_tuft", 0.2f},
-    {Biome::AlpineMeadow, "oxeye_daisy", 0.03f},
-    {Biome::AlpineMeadow, "bluebell", 0.04f},
-    {Biome::AlpineMeadow, "heather", 0.06f},
+    {Biome::AlpineMeadow, "grass_tuft", 0.24f},
+    {Biome::AlpineMeadow, "oxeye_daisy", 0.06f},
+    {Biome::AlpineMeadow, "bluebell", 0.08f},
+    {Biome::AlpineMeadow, "poppy", 0.02f},
+    {Biome::AlpineMeadow, "heather", 0.08f},
     {Biome::Savanna, "savanna_grass", 0.50f},
     {Biome::Shrubland, "savanna_grass", 0.2f},
     {Biome::Shrubland, "heather", 0.05f},
@@ -225,19 +227,22 @@ Float beyondGlade(Pass& p) {
     return smoothstep(0.16f, 0.8f, landforms::fromOrigin(p, 256));
 }
 
-// Trees stand on earth that no cave is near, below the tree line. On beaches only where it is warm.
+// Trees and stones stand on earth that no cave is near. On beaches only where it is warm.
 Bool canGrow(Pass& p, const Fields& f) {
     const Block top = p.read(f.top);
     const auto is = [&](const char* name) { return top == p.block(name); };
     const Bool isEarth = is("grass") || is("moss") || is("mud") || is("snow") || is("sand") ||
                          is("red_sand") || is("gravel") || is("basalt");
-    const Float cold = p.read(f.cold);
-    const Bool isWarmBeach = p.read(f.biome) != number(Biome::Beach) || cold > 0.18f;
-    const Bool isBelowTreeLine = cold > -0.42f || p.read(f.height) < kSea + 250.0f;
-    Bool result = isEarth && p.read(f.spring) <= 0.0f && isWarmBeach && isBelowTreeLine &&
-                  p.read(f.surface) >= p.read(f.water);
+    const Bool isWarmBeach = p.read(f.biome) != number(Biome::Beach) || p.read(f.cold) > 0.18f;
+    Bool result = isEarth && p.read(f.spring) <= 0.0f && isWarmBeach && p.read(f.surface) >= p.read(f.water);
     if (p.step() == 1) result = result && p.read(f.caveTop) < p.read(f.surface) - 3;
     return result;
+}
+
+// 0…1: trees stand farther apart towards the tree line and end there. Cold lowland has the taiga's.
+Float belowTreeLine(Pass& p, const Fields& f) {
+    return max(smoothstep(-0.44f, -0.29f, p.read(f.cold)),
+               smoothstep(kSea + 260.0f, kSea + 200.0f, p.read(f.height)));
 }
 
 }  // namespace
@@ -251,7 +256,7 @@ void plantsPass(Pass& p, const Fields& f) {
     const Float share =
         select(isGround, vegetation::woodland(p, p.read(f.forest)) * beyondGlade(p) * (1.0f - clearing(p, f)),
                Float(0.0f));
-    vegetation::Site site = {p.read(f.biome), share, p.read(f.surface), {}};
+    vegetation::Site site = {p.read(f.biome), share * belowTreeLine(p, f), share, p.read(f.surface), {}};
     if (p.step() <= vegetation::kMaxShapeStep)
         site.placed =
             placeShape(p, f, isGround && length(p.slope(f.height)) < 0.45f && p.read(f.wet) <= 0.0f);

@@ -291,20 +291,33 @@ Steps stepsOf(Float even, Float gradient) {
             share > 0.5f && part > 1.0f - gradient * kSheet / fall};
 }
 
-// Where a large river meets the sea it leaves a delta: flats of silt on both sides of the shore, which its
+// Share: an arm of a river that splits. Arms part from the river `fromFork` blocks inland of here, at angles
+// of these slopes to either side, and wind; the river goes on between them.
+Float armOf(Pass& p, const DrainageSample& r, Float fromFork) {
+    constexpr float kSlopes[] = {0.25f, 0.6f, 1.15f};
+    constexpr float kHalfWidth = 4.5f;  // blocks
+    const Float winding = p.perlin2D("arms of deltas", 36, {.16f, .3f}) * fromFork;
+    Float near = r.distance - r.halfWidth * 0.7f + kHalfWidth;
+    for (const float slope : kSlopes) near = min(near, abs(r.distance + winding - fromFork * slope));
+    return smoothstep(kHalfWidth, kHalfWidth - 2.5f, near);
+}
+
+// Where a large river meets the sea it leaves a delta: a fan of silt on both sides of the shore, which its
 // arms part, at the level of the sea.
 Float withDelta(Pass& p, const Fields& f, const DrainageSample& r, Float ground) {
+    constexpr float kFork = 0.075f, kShore = 2600.0f;  // land where arms part; blocks by land near the shore
     const Float land = p.read(f.land);
-    const Float delta = smoothstep(22.0f, 40.0f, r.flow) * smoothstep(210.0f, 60.0f, r.distance) *
-                        smoothstep(0.07f, 0.025f, abs(land)) * smoothstep(9.0f, 4.0f, r.level) *
-                        smoothstep(0.25f, 0.1f, p.read(f.range));
+    const Float fromFork = (kFork - land) * kShore;
+    const Float delta = smoothstep(16.0f, 34.0f, r.flow) * smoothstep(9.0f, 4.0f, r.level) *
+                        smoothstep(250.0f, 100.0f, r.distance) *
+                        smoothstep(1.5f, 0.9f, r.distance / max(fromFork, Float(20.0f))) *
+                        smoothstep(kFork, 0.03f, abs(land)) * smoothstep(0.25f, 0.1f, p.read(f.range));
     Var<Float> height = p.var(ground);
     p.if_(delta > 0.0f, [&] {
-        const Float lines = abs(p.perlin2D("arms of deltas", 36, {.35f, 1.0f}));
         const Float flats = p.perlin2D("flats of deltas", 24, {.5f, 1.0f});
-        const Float silt = clamp(ground, kSea - 2.2f + delta * 2.6f, Float(kSea + 1.5f)) + flats * 0.7f;
-        const Float arms = smoothstep(0.13f, 0.06f, lines) * smoothstep(0.1f, 0.4f, delta);
-        height = lerp(ground, silt - arms * 3.0f, smoothstep(0.0f, 0.3f, delta));
+        const Float silt = clamp(ground, kSea - 2.2f + delta * 3.4f, Float(kSea + 1.5f)) + flats * 0.7f;
+        const Float arms = armOf(p, r, fromFork) * smoothstep(0.0f, 0.2f, delta);
+        height = lerp(ground, lerp(silt, Float(kSea - 2.4f), arms), smoothstep(0.0f, 0.3f, delta));
     });
     return height;
 }
@@ -321,21 +334,30 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
     p.if_(r.distance < 72.0f && land > -0.02f, [&] {
         // To the coast the land, and the water with it, falls to the level of the sea.
         const Float even = min(r.level, max(p.read(f.base) - 1.0f, Float(kSea + 0.5f)));
-        const Steps s = stepsOf(even, r.fall);
         // Narrow here and wide there, with bays and points. A core stays open.
         const Float rough = p.perlin2D("banks", 8, {.5f, 1.0f});
-        const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f}) * (r.halfWidth * 0.28f + 0.8f);
-        const Float channel = min(r.distance - r.halfWidth + rough * 0.4f + bays, r.distance - 1.3f);
-        const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;    // share: at the foot of a fall
-        const Float fromBank = channel - below * (s.fall * 0.2f + 0.8f);  // the pool that it dug
+        const Float bays = p.perlin2D("bays of rivers", 20, {.35f, .7f, 1.0f});
+        const Float channel =
+            min(r.distance - r.halfWidth + rough * 0.4f + bays * (r.halfWidth * 0.28f + 0.8f),
+                r.distance - 1.8f + rough * 0.5f);
+        const Steps s = stepsOf(even, r.fall);
+        const Float before =
+            (1.0f - s.part) * s.fall / max(r.fall, Float(0.01f));       // blocks to the fall above
+        const Float below = smoothstep(0.4f, 0.95f, s.part) * s.share;  // share: at the foot of a fall
+        // The pool that it dug, round at the fall.
+        const Float fromBank = channel - below * smoothstep(0.0f, 9.0f, before) * (s.fall * 0.2f + 0.8f);
         const Float across = clamp(r.distance / max(r.halfWidth, Float(1.0f)), 0.0f, 1.0f);
         const Float bed = s.level - 0.6f - (1.0f - across * across) * (r.halfWidth * 0.3f + 0.8f) -
                           below * (s.fall * 0.16f + 1.0f);
         // Banks slope down to the pools, with rock on both sides of a fall, which holds the water before it.
-        const Float beside = smoothstep(0.75f, 0.96f, s.part), away = max(fromBank, Float(0.0f));
-        const Float slope = s.level + 0.8f + away * (rough * 0.4f + 0.7f) + beside * (s.fall + 4.0f);
+        const Float beside = smoothstep(0.75f, 0.96f, s.part), holds = smoothstep(4.5f, 2.5f, before);
+        const Float away = max(fromBank, Float(0.0f));
+        // It climbs from the pool in crags.
+        const Float rock = beside * (s.fall + rough * 2.0f + 5.0f),
+                    crags = min(rock, away * (rough * 1.5f + 3.5f) + 1.0f);
+        const Float slope = s.level + 0.8f + away * (rough * 0.4f + 0.7f) + lerp(crags, rock, holds);
         const Float lowered = lerp(ground, min(ground, slope), s.share * smoothstep(70.0f, 40.0f, away));
-        const Float bank = lerp(s.level + 0.8f, even + 0.9f + r.fall, lerp(Float(1.0f), beside, s.share));
+        const Float bank = lerp(s.level + 0.8f, even + 0.9f + r.fall, lerp(Float(1.0f), holds, s.share));
         // Water above the sea needs banks; at the sea's level the ground may be lower beside it.
         const Float raised = max(lowered, lerp(bank, lowered, smoothstep(0.0f, 14.0f, away)));
         const Float outside = lerp(ground, raised, clamp((s.level - kSea - 0.5f) * 2.0f, 0.0f, 1.0f));
@@ -347,7 +369,7 @@ Water cut(Pass& p, const Fields& f, Float uncut) {
         wet = smoothstep(12.0f, 2.0f, fromBank);
         const Float foam = rough * 2.0f + (kSheet + kFoam);
         const Bool isFoam = s.share > 0.5f && isOpen && s.part > 1.0f - r.fall * foam / s.fall;
-        fall = select(isSheet, Int(floor(top)) - Int(floor(s.level)), select(isFoam, Int(1), Int(0)));
+        fall = select(isSheet, Int(floor(top)) - Int(floor(s.level)), select(isFoam, Int(kFoamMark), Int(0)));
     });
     // Pools of marshes, as high as the river beside them, with rims.
     const Float fromBank = r.distance - r.halfWidth;

@@ -61,11 +61,12 @@ Int biomeOf(Pass& p, const Fields& f, const Site& s) {
     const Float patches = p.perlin2D("woods of one kind", 128, {.3f, .6f, 1.0f}) + s.rough;
     const Float shore = p.perlin2D("beach width", 64, {.4f, 1.0f}) * 0.008f + 0.009f;
     const Bool isSea = s.height < kSea + 0.5f && (land < 0.05f || p.read(f.range) > 0.2f);
-    const Bool isShallow = s.height > kSea - 18.0f, isDeep = s.height < kSea - 60.0f;
+    const Float floor = s.height + s.rough * 70.0f;  // of the sea, with the grain of borders
+    const Bool isShallow = floor > kSea - 18.0f, isDeep = floor < kSea - 60.0f;
     const Int sea =
         multiSelect({{isDeep, is(Biome::DeepOcean)},
                      {isShallow && t > 0.2f, is(Biome::Reef)},
-                     {s.height > kSea - 30.0f && t < 0.05f && patches > 0.05f, is(Biome::KelpForest)}},
+                     {floor > kSea - 30.0f && t < 0.05f && patches > 0.05f, is(Biome::KelpForest)}},
                     is(Biome::Ocean));
     const Bool isCoast = land < shore && s.height < kSea + 4.0f;
     const Bool isLow = s.height < kSea + 14.0f && length(p.slope(f.base)) < 0.35f;
@@ -118,8 +119,8 @@ Block biomeTop(Pass& p, const Site& s, Int biome, Float patches, Float spots) {
     const auto block = [&](const char* name) { return p.block(name); };
     const Block tundra =
         select(spots > 0.25f, block("moss"), select(patches > 0.35f, block("gravel"), block("grass")));
-    const Block alpine = multiSelect({{s.cold < spots * 0.05f - 0.54f, block("snow")},
-                                      {s.cold < spots * 0.15f - 0.46f, block("stone")},
+    const Block alpine = multiSelect({{s.cold < spots * 0.05f - 0.57f, block("snow")},
+                                      {s.cold < spots * 0.12f - 0.53f, block("stone")},
                                       {spots > 0.5f, block("gravel")}},
                                      block("grass"));
     const Block marsh =
@@ -177,7 +178,10 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const auto is = [&](Block block, const char* name) { return block == p.block(name); };
     const Bool isSoil = is(top, "grass") || is(top, "moss") || is(top, "snow");
     const Block soil = select(isSoil, p.block("dirt"), select(is(top, "red_sand"), p.block("red_sand"), top));
-    const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.3f - smoothstep(0.0f, -0.4f, s.cold) * 0.2f;
+    // The sod of meadows holds more than the soil of woods.
+    const Float sod =
+        select(biome == number(Biome::AlpineMeadow), Float(0.1f), smoothstep(0.0f, -0.4f, s.cold) * -0.2f);
+    const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.3f + sod;
     // Sand lies on dunes, not on mountains.
     const Bool isSandy = is(top, "sand") && biome == number(Biome::Desert);
     const Bool isDune = isSandy && p.read(f.range) < 0.1f && p.read(f.canyon) < 0.1f;

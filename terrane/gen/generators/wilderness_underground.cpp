@@ -89,8 +89,13 @@ Hollow hollowAt(Pass& p, const StoreyKind& kind, Float many, float wider) {
             max(min(inRoom * 3.0f, Float(1.0f)) * kind.deep, inPassage * kPassageDeep)};
 }
 
+struct Drip {
+    Float cone;  // blocks
+    Float kind;  // 0…1, the same for all columns of a cone
+};
+
 // Cones that hang from roofs and stand below them, of the length that a gap allows.
-Float drip(Pass& p, Float gap, Float chance) {
+Drip drip(Pass& p, Float gap, Float chance) {
     const Voronoi2D at = p.voronoi2D("drips", 9, 1);
     const Int x = p.x() + at.offset.x, y = p.y() + at.offset.y;
     const Float size = p.random2D("drip size", x, y);
@@ -98,17 +103,19 @@ Float drip(Pass& p, Float gap, Float chance) {
     const Float radius = size * size * 3.2f + 0.9f;
     const Float cone = clamp(1.0f - at.distance / radius, 0.0f, 1.0f);
     const Float thin = cone * (cone * 0.7f + 0.3f);
-    return select(isDrip, thin * (size * 0.5f + 0.15f) * min(gap, Float(46.0f)), Float(0.0f));
+    return {select(isDrip, thin * (size * 0.5f + 0.15f) * min(gap, Float(46.0f)), Float(0.0f)),
+            p.random2D("kind of drip", x, y)};
 }
 
 // What the walls and the ground of a storey's caves are made of.
 struct Lining {
-    Block wall, ground;
-    Float drips;   // share of the places for stalactites that have one
-    Float fungus;  // share
+    Block wall, ground;  // a wall of "crystal": rock with lumps of it
+    Float drips;         // share of the places for stalactites that have one
+    Float crystals;      // share of these that are crystals
+    Float fungus;        // share
 };
 
-Lining liningOf(Pass& p, const Fields& f, int storey, const Country& c) {
+Lining liningOf(Pass& p, const Fields& f, int storey, const Country& c, Bool isBuried) {
     const Block rock = p.read(f.rock);
     const Float patches = p.perlin2D("cave walls", 14, {.5f, 1.0f});
     const auto block = [&](const char* name) { return p.block(name); };
@@ -120,14 +127,18 @@ Lining liningOf(Pass& p, const Fields& f, int storey, const Country& c) {
     const Bool isHot = storey == kDeep ? c.hot > 0.0f : c.isVolcano;
     const Bool isIce = isUnderSky ? c.isCold : Bool(false);
     const Block druse = select(patches > 0.32f, block("crystal_rock"), block("basalt"));
+    // Crystals in walls and roofs, more of them in the depth, so that one sees how large a room is.
+    const Bool isLit = patches < (isUnderSky ? -0.62f : -0.5f) && isBuried;
     const Block mossy = select(patches > 0.1f, block("mossy_stone"), rock);
-    return {multiSelect({{isIce, select(patches > 0.55f, block("snow"), block("ice"))},
+    return {multiSelect({{isLit, block("crystal")},
+                         {isIce, select(patches > 0.55f, block("snow"), block("ice"))},
                          {isHot, block("basalt")},
                          {isCrystal, druse},
                          {isFungus, mossy},
                          {c.limestone > 0.5f, block("limestone")}},
                         rock),
-            multiSelect({{isIce, select(patches > 0.1f, block("snow"), block("ice"))},
+            multiSelect({{isLit, block("crystal_rock")},
+                         {isIce, select(patches > 0.1f, block("snow"), block("ice"))},
                          {isHot, select(patches > 0.5f, block("gravel"), block("basalt"))},
                          {isCrystal, druse},
                          {isFungus, select(patches > 0.35f, block("mud"), block("moss"))},
@@ -136,7 +147,7 @@ Lining liningOf(Pass& p, const Fields& f, int storey, const Country& c) {
                         rock),
             multiSelect({{isHot, Float(0.15f)}, {isIce || isCrystal, Float(0.75f)}, {isFungus, Float(0.3f)}},
                         c.limestone * 0.75f + 0.2f),
-            fungus};
+            select(isCrystal || isHot, Float(0.6f), Float(isUnderSky ? 0.0f : 0.14f)), fungus};
 }
 
 // Mushrooms as high as trees on the ground of a fungus cave. A cap needs a wider gap, drier ground (blocks
@@ -243,7 +254,7 @@ void findRoom(Pass& p, const Fields& f, const Country& c, int storey, Room& room
             room.pool = select(isHot, p.block("lava"), p.block("water"));
         }
         p.if_(near.up > 1.0f, [&] {
-            const Lining lining = liningOf(p, f, storey, c);
+            const Lining lining = liningOf(p, f, storey, c, surface > middle + near.up + 16.0f);
             room.wall = lining.wall;
             room.ground = lining.ground;
             room.wallFloor = Int(floor(middle - near.down)) - 3;
@@ -259,7 +270,11 @@ void findRoom(Pass& p, const Fields& f, const Country& c, int storey, Room& room
                 room.evenBottom = low;
                 room.evenHigh = middle + h.up;
                 room.high = high;
-                room.cone = drip(p, gap, lining.drips) * smoothstep(6.0f, 12.0f, gap);
+                const Drip d = drip(p, gap, lining.drips);
+                const Bool isCrystal = d.cone > 0.0f && d.kind < lining.crystals;
+                room.cone = d.cone * smoothstep(6.0f, 12.0f, gap);
+                room.wall = select(isCrystal, p.block("crystal_rock"), lining.wall);
+                room.ground = select(isCrystal, p.block("crystal_rock"), lining.ground);
                 room.fungus = lining.fungus;
             });
         });
@@ -363,6 +378,7 @@ Block withCaves(Pass& p, const Fields& f, Block rock) {
     const Int z = p.z();
     Var<Block> block = p.var(rock), liquid = p.var(p.block("air"));
     Var<Bool> isOpen = p.var(Bool(false)), isLake = p.var(Bool(false)), isRoom = p.var(Bool(false));
+    const Int bend = Int(bendOfStrata(p) * 6.0f + 128.0f);  // of layers with lumps of crystal
     for (int k = 0; k < kStoreys; ++k) {
         const Storey& s = caves.storeys[k];
         if (kKinds[k].lake != kNoLake) {
@@ -381,7 +397,10 @@ Block withCaves(Pass& p, const Fields& f, Block rock) {
         p.if_(z > p.read(s.wallFloor) && z < p.read(s.wallRoof), [&] {
             isOpen = isOpen || (z > p.read(s.floor) && z < p.read(s.roof));
             isRoom = isRoom || p.read(s.floor) < -kNowhere;
-            block = select(z <= p.read(s.floor), p.read(s.ground), p.read(s.wall));
+            const Block wall = p.read(s.wall);
+            const Block lumps = select(((z + bend) & 31) < 13, p.block("crystal_rock"), rock);
+            block = multiSelect(
+                {{z <= p.read(s.floor), p.read(s.ground)}, {wall == p.block("crystal"), lumps}}, wall);
         });
     }
     p.if_(z > p.heights().bottom + 2 && z < p.read(f.caveTop) && !isLake && !isRoom, [&] {
@@ -432,9 +451,11 @@ void caveLifePass(Pass& p, const Fields& f) {
         const auto isOn = [&](const char* name) { return below == p.block(name); };
         const Bool isFloor = below != p.block("air") && below != p.block("water") && below != p.block("lava");
         const Bool isMoss = isOn("moss") || isOn("mud"), isDruse = isOn("crystal_rock");
+        const Bool isCap = isOn("mushroom_cap");
         const Bool isBare = isOn("ice") || isOn("snow") || isOn("basalt");
         const Float chance = p.random3D("cave life", p.x(), p.y(), p.z());
-        const Float glowing = select(isMoss, Float(0.10f), select(isBare, Float(0.0f), Float(0.014f)));
+        const Float glowing =
+            multiSelect({{isCap, Float(0.3f)}, {isMoss, Float(0.1f)}, {isBare, Float(0.0f)}}, Float(0.014f));
         const Float brown = select(isMoss, Float(0.10f), select(isBare, Float(0.0f), Float(0.012f)));
         const Float crystals =
             select(isDruse, Float(0.3f), select(p.z() < -40 && !isBare, Float(0.006f), Float(0.0f)));
