@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -382,6 +383,22 @@ std::vector<stream::TaskTime> Session::taskTimes() const {
     std::vector<stream::TaskTime> times = pipeline_.taskTimes();
     times.push_back(tiles_.taskTime());
     return times;
+}
+
+const world::BlockType* solidBlockAt(const Session& session, const glm::dvec3& point, double margin) {
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 side(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const world::BlockPos pos = world::blockOf(point + margin * side);
+        const world::BlockValue value = world::blockValue(session.world(), pos);
+        const world::BlockType& type = session.blocks().type(value.id);
+        const glm::dvec3 inBlock = point - glm::dvec3(pos.x, pos.y, pos.z);
+        for (const world::Box& box : world::collisionBoxes(type, value.state)) {
+            const glm::dvec3 min = glm::dvec3(box.min) - margin, max = glm::dvec3(box.max) + margin;
+            if (glm::all(glm::lessThanEqual(min, inBlock)) && glm::all(glm::lessThan(inBlock, max)))
+                return &type;
+        }
+    }
+    return nullptr;
 }
 
 bool isUnderWater(const Session& session, const glm::dvec3& point) {

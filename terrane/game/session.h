@@ -151,6 +151,10 @@ class Session {
     std::uint64_t ticks_ = 0;
 };
 
+// Returns the type of a block with a collision box around a point, or less than `margin` blocks from it along
+// each axis; null if there is none.
+const world::BlockType* solidBlockAt(const Session& session, const glm::dvec3& point, double margin = 0);
+
 // Returns whether a point is in water: below its surface, if that is in the same block.
 bool isUnderWater(const Session& session, const glm::dvec3& point);
 // Returns the number of water blocks above a point, its own included, at most 64; 0 if it is in air.

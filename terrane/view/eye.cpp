@@ -68,6 +68,16 @@ glm::vec3 lightAlong(const game::Session& session, const world::Ray& ray,
 
 }  // namespace
 
+std::optional<std::string> blockAtCamera(const game::Session& session, const render::Camera& camera) {
+    if (const world::BlockType* type = game::solidBlockAt(session, camera.position))
+        return "inside " + type->name;
+    // A corner of the near plane is farther away than its middle.
+    constexpr double kTouches = 2 * render::kNearPlane;
+    if (const world::BlockType* type = game::solidBlockAt(session, camera.position, kTouches))
+        return "at a face of " + type->name;
+    return std::nullopt;
+}
+
 SeenLight seenLight(const game::Session& session, const render::FrameInput& input, float aspect) {
     const render::ViewMatrices view = render::viewMatrices(input.camera, aspect);
     float stops = 0;

@@ -5,11 +5,17 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
+#include <string>
 
 #include "terrane/game/session.h"
 #include "terrane/render/frame/frame_uniforms.h"
 
 namespace terrane::view {
+
+// Returns "inside NAME" or "at a face of NAME" of a camera that sees through the block there, since faces are
+// not drawn from behind and near ones are cut open; nothing of one in the open.
+std::optional<std::string> blockAtCamera(const game::Session& session, const render::Camera& camera);
 
 // Light on surfaces in view, along rays that fill the image.
 struct SeenLight {

@@ -119,15 +119,13 @@ base::Result<void> Recorder::apply(const OptionsCue& graphics) {
     return {};
 }
 
-// Warns once per shot if the camera is inside a block.
+// Warns once per shot if the camera sees through a block.
 void Recorder::warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot) {
-    const game::Session& session = *parts_.world.session;
-    const world::BlockId id = session.world().block(world::blockOf(camera.position));
-    const world::BlockType& type = session.blocks().type(id);
-    if (type.collision.empty() || warnedOf_ == &shot) return;
+    if (warnedOf_ == &shot) return;
+    const auto block = blockAtCamera(*parts_.world.session, camera);
+    if (!block) return;
     warnedOf_ = &shot;
-    base::logWarning("shot \"{}\": after {:.1f} s the camera is inside {}", shot.name, secondsInShot,
-                     type.name);
+    base::logWarning("shot \"{}\": after {:.1f} s the camera is {}", shot.name, secondsInShot, *block);
 }
 
 base::Result<base::Image> Recorder::frame(double seconds) {

@@ -43,6 +43,19 @@ float shownCard(float light, glm::vec3 exposure) {
     return render::displayColor(0.18f * light * exposure).y;
 }
 
+TEST_F(EyeTest, TellsBlocksThatItSeesThrough) {
+    const auto at = [&](glm::dvec3 position) { return blockAtCamera(session_, {.position = position}); };
+    const double ground = game::kGroundHeight;
+    EXPECT_EQ(at({2.5, 2.5, ground - 3}), "inside stone");
+    EXPECT_EQ(at({2.5, 2.5, ground}), "at a face of stone");
+    EXPECT_EQ(at({2.5, 2.5, ground + 0.05}), "at a face of stone");
+    EXPECT_EQ(at({2.5, 2.5, ground + 0.2}), std::nullopt);
+    EXPECT_EQ(at(kInRoom), std::nullopt);
+    EXPECT_EQ(at({5.05, 8.5, 40.5}), "at a face of stone");
+    set({2, 2, game::kGroundHeight}, "poppy");
+    EXPECT_EQ(at({2.5, 2.5, ground + 0.5}), std::nullopt) << "one walks through flowers";
+}
+
 TEST_F(EyeTest, ByDayNothingChanges) {
     for (const float time : {0.35f, kNoon, 0.65f}) EXPECT_EQ(exposure(kOutside, time), glm::vec3(1)) << time;
 }

@@ -294,6 +294,9 @@ base::Result<void> renderImage(const CLI::App& command, const RenderCommandOptio
     timings.load = millisecondsSince(loadStart);
     timings.viewDistance = (*world)->view->viewDistance();
 
+    if (const auto block = view::blockAtCamera(session, camera))
+        base::logWarning("{}: the camera is {}, which it sees through", options.output, *block);
+
     const auto drawStart = Clock::now();
     render::FrameInput input{camera,
                              world::environmentAt(place.timeDay),
