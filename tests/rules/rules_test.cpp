@@ -169,10 +169,12 @@ TEST_F(RulesTest, PlayersAreKnown) {
 
 TEST_F(RulesTest, PlayersHaveItems) {
     session_.mode = game::Mode::Survival;
-    EXPECT_THAT(valuesOf("p.mode, p.hand, p:give('torch', 5), p.hand, p:give('iron_pick'), p:count('torch'), "
-                         "p:take('torch', 9), p:count('torch'), p:count('iron_pick')",
-                         "p = nil events.on('join', function(e) p = e.player end)"),
-                testing::ElementsAre("survival", "nil", "5", "torch", "1", "5", "5", "0", "1"));
+    EXPECT_THAT(
+        valuesOf(
+            "p.mode, tostring(p.hand), p:give('torch', 5), p.hand, p:give('iron_pick'), p:count('torch'), "
+            "p:take('torch', 9), p:count('torch'), p:count('iron_pick')",
+            "p = nil events.on('join', function(e) p = e.player end)"),
+        testing::ElementsAre("survival", "nil", "5", "torch", "1", "5", "5", "0", "1"));
     for (const char* wrong : {"p:give('torhc')", "p:give('torch', -1)", "p:give()", "p.give('torch')"}) {
         run("events.on('join', function(e) local p = e.player " + std::string(wrong) + " end)");
         EXPECT_THAT(problems(), testing::SizeIs(1)) << wrong;
@@ -190,12 +192,13 @@ TEST_F(RulesTest, PlayersHaveItems) {
 
 TEST_F(RulesTest, ChestsHaveItems) {
     session_.edit({game::kNoPlayer, above_, world::SetBlock{contentBlock("chest")}, std::nullopt});
-    EXPECT_THAT(valuesOf("world.items(ground), #world.items(chest), world.putItems(chest, 'coal', 120), "
-                         "world.takeItems(chest, 'coal', 1), world.items(chest)[2].item, "
-                         "world.items(chest)[2].count, world.putItems(ground, 'coal'), "
-                         "world.putItems(chest, 'iron_pick', 40)",
-                         "chest = pos(5, 5, 64) ground = pos(5, 5, 63)"),
-                testing::ElementsAre("nil", "0", "120", "1", "coal", "20", "0", "25"));
+    EXPECT_THAT(
+        valuesOf("tostring(world.items(ground)), #world.items(chest), world.putItems(chest, 'coal', 120), "
+                 "world.takeItems(chest, 'coal', 1), world.items(chest)[2].item, "
+                 "world.items(chest)[2].count, world.putItems(ground, 'coal'), "
+                 "world.putItems(chest, 'iron_pick', 40)",
+                 "chest = pos(5, 5, 64) ground = pos(5, 5, 63)"),
+        testing::ElementsAre("nil", "0", "120", "1", "coal", "20", "0", "25"));
 }
 
 TEST_F(RulesTest, ItemsThatPlayersUseAndMakeAreTold) {

@@ -218,7 +218,8 @@ TEST(Items, MistakesNameLineAndKey) {
                 HasSubstr("shape: expected"));
     EXPECT_THAT(itemErrorOf("[[recipe]]\nmakes = \"stone\"\nshape = [\"#x\"]\nkeys = { \"#\" = \"log\" }"),
                 HasSubstr("an item for \"x\""));
-    EXPECT_THAT(itemErrorOf("[[recipe]]\nmakes = \"stone\"\nof = [\"spoon\"]"), HasSubstr("got \"spoon\""));
+    EXPECT_THAT(itemErrorOf("[[item]]\nname = \"stick\"\n[[recipe]]\nmakes = \"stone\"\nof = [\"spoon\"]"),
+                HasSubstr("got \"spoon\""));
     EXPECT_THAT(itemErrorOf("[[item]]\nname = \"stone\"\n" + std::string(kItems)),
                 HasSubstr("that no item or block has, got \"stone\""));
 }
