@@ -24,9 +24,20 @@ class ServerItems : public testing::Test {
         for (const char* name : names)
             server.state().session.setMode(idOf(server, name), game::Mode::Survival);
     }
-    static void putChest(TestServer& server, world::BlockPos pos) {
-        server.state().session.edit(
-            {game::kNoPlayer, pos, world::SetBlock{contentBlock("chest")}, std::nullopt});
+    // By a player in creative, so that the history has it.
+    static void putChest(TestServer& server, const char* player, world::BlockPos pos) {
+        game::Session& session = server.state().session;
+        const game::PlayerId id = idOf(server, player);
+        const auto mode = session.itemsOf(id).mode;
+        (void)session.pipeline().chunkAt(world::chunkOf(pos));
+        session.setMode(id, game::Mode::Creative);
+        ASSERT_EQ(session.edit({id, pos, world::SetBlock{contentBlock("chest")}, std::nullopt}),
+                  game::EditResult::Applied);
+        session.setMode(id, mode);
+    }
+    static world::Inventory chestOf(TestServer& server, world::BlockPos pos) {
+        (void)server.state().session.pipeline().chunkAt(world::chunkOf(pos));
+        return chestOf(server.state().session, pos);
     }
     static world::Inventory chestOf(const game::Session& session, world::BlockPos pos) {
         return game::itemsOf(session.world(), session.blocks(), pos).value();
@@ -51,7 +62,7 @@ TEST_F(ServerItems, AreToldToTheirPlayer) {
     EXPECT_EQ(ann.session->modeOf(game::kLocalPlayer), game::Mode::Survival);
     EXPECT_EQ(ann.session->itemsOf(game::kLocalPlayer).hand(), (world::ItemStack{"dirt", 3}));
     EXPECT_EQ(bob.session->modeOf(game::kLocalPlayer), game::Mode::Creative);
-    EXPECT_EQ(bob.session->itemsOf(game::kLocalPlayer), game::PlayerItems{.mode = game::Mode::Creative});
+    EXPECT_EQ(bob.session->itemsOf(game::kLocalPlayer).slots, world::Inventory(game::kPlayerSlots));
     const world::BlockPos pos = beside(ann, 2);
     EXPECT_EQ(ann.put(pos, "dirt"), game::EditResult::Applied);
     EXPECT_EQ(ann.put(beside(ann, 3), "stone"), game::EditResult::NoItem);
@@ -70,7 +81,7 @@ TEST_F(ServerItems, WrongRequestsChangeNothing) {
     const game::PlayerId id = idOf(server, "Ann");
     session.give(id, {"coal", 9});
     const world::BlockPos chest = beside(ann, 2);
-    putChest(server, chest);
+    putChest(server, "Ann", chest);
     std::mt19937 random(11);
     const auto place = [&]() -> game::SlotPlace {
         game::SlotPlace at{{}, static_cast<std::uint16_t>(random() % 60)};
@@ -89,14 +100,14 @@ TEST_F(ServerItems, WrongRequestsChangeNothing) {
         if (k % 4 == 0) step(server, {&ann});
         Sum sum;
         addTo(sum, session.itemsOf(id).slots);
-        addTo(sum, chestOf(session, chest));
+        addTo(sum, chestOf(server, chest));
         ASSERT_EQ(sum, (Sum{{"coal", 9}}));
     }
     const world::Inventory gold{{"gold_ore", 99}};
     ann.wire->say(Edit{++number, chest, world::SetEntityData{world::encodeInventory(gold)}, {}});
     for (int k = 0; k < 20; ++k) step(server, {&ann});
     Sum sum;
-    addTo(sum, chestOf(session, chest));
+    addTo(sum, chestOf(server, chest));
     EXPECT_EQ(sum["gold_ore"], 0);
 }
 
@@ -108,13 +119,14 @@ TEST_F(ServerItems, TwoPlayersShareAChest) {
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.isLoaded() && bob.isLoaded(); }));
     beginSurvival(server, {"Ann", "Bob"});
     const world::BlockPos chest = beside(ann, 1);
-    putChest(server, chest);
+    putChest(server, "Ann", chest);
     game::Session& session = server.state().session;
     session.give(idOf(server, "Ann"), {"coal", 70});
     session.give(idOf(server, "Bob"), {"stick", 40});
     session.give(idOf(server, "Bob"), {"iron_pick", 2});
     step(server, {&ann, &bob});
     std::mt19937 random(3);
+    bool wasUsed = false;
     for (int k = 0; k < 300; ++k) {
         for (TestPlayer* player : {&ann, &bob}) {
             game::SlotPlace own{{}, static_cast<std::uint16_t>(random() % 5)};
@@ -131,10 +143,10 @@ TEST_F(ServerItems, TwoPlayersShareAChest) {
     Sum sum;
     addTo(sum, session.itemsOf(idOf(server, "Ann")).slots);
     addTo(sum, session.itemsOf(idOf(server, "Bob")).slots);
-    addTo(sum, chestOf(session, chest));
+    addTo(sum, chestOf(server, chest));
     EXPECT_EQ(sum, (Sum{{"coal", 70}, {"stick", 40}, {"iron_pick", 2}}));
     for (TestPlayer* player : {&ann, &bob}) {
-        EXPECT_EQ(chestOf(*player->session, chest), chestOf(session, chest));
+        EXPECT_EQ(chestOf(*player->session, chest), chestOf(server, chest));
         EXPECT_EQ(player->session->itemsOf(game::kLocalPlayer).slots,
                   session.itemsOf(idOf(server, player->identity.name)).slots);
     }
@@ -153,18 +165,13 @@ TEST_F(ServerItems, ComeBackWithTheirChest) {
         beginSurvival(server, {"Ann"});
         game::Session& session = server.state().session;
         chest = beside(ann, 1);
-        server.state().session.setPlayer(idOf(server, "Ann"), ann.pose);
-        session.setMode(idOf(server, "Ann"), game::Mode::Creative);
-        ASSERT_EQ(
-            session.edit({idOf(server, "Ann"), chest, world::SetBlock{contentBlock("chest")}, std::nullopt}),
-            game::EditResult::Applied);
-        beginSurvival(server, {"Ann"});
+        putChest(server, "Ann", chest);
         session.give(idOf(server, "Ann"), {"coal", 20});
         ASSERT_EQ(session.act(idOf(server, "Ann"), game::MoveStack{{{}, 0}, {chest, 5}, 8}),
                   game::EditResult::Applied);
         server.finishWrites();
         addTo(before, session.itemsOf(idOf(server, "Ann")).slots);
-        addTo(before, chestOf(session, chest));
+        addTo(before, chestOf(server, chest));
     }  // nothing is saved
     TestServer server(folder_.path());
     TestPlayer ann(server, identity);
@@ -172,11 +179,10 @@ TEST_F(ServerItems, ComeBackWithTheirChest) {
     game::Session& session = server.state().session;
     EXPECT_EQ(session.modeOf(idOf(server, "Ann")), game::Mode::Survival);
     EXPECT_EQ(session.itemsOf(idOf(server, "Ann")).slots[0], (world::ItemStack{"coal", 12}));
-    (void)session.pipeline().chunkAt(world::chunkOf(chest));
-    EXPECT_EQ(chestOf(session, chest)[5], (world::ItemStack{"coal", 8}));
+    EXPECT_EQ(chestOf(server, chest)[5], (world::ItemStack{"coal", 8}));
     Sum after;
     addTo(after, session.itemsOf(idOf(server, "Ann")).slots);
-    addTo(after, chestOf(session, chest));
+    addTo(after, chestOf(server, chest));
     EXPECT_EQ(after, before);
 }
 
