@@ -35,7 +35,7 @@ constexpr std::string_view kAllKeys =
     "name, like, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
     "emission, "
     "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
-    "behaviors, tint, climbable, replaceable, group, sound";
+    "behaviors, tint, climbable, replaceable, group, sound, hardness, tool, tool_level, drops";
 
 // What the second of two blocks does not set is as in the first.
 constexpr std::string_view kLamp =
