@@ -136,7 +136,8 @@ TEST(BlockParser, BadLines) {
         {"behaviors = \"falling\"",
          "blocks.toml:5: behaviors: expected an array of names and tables, got \"falling\""},
         {"behaviors = [\"plant\",\n \"flies\"]",
-         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, workbench, flows, stands, leans, "
+         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, workbench, flows, "
+         "stands, leans, "
          "stands_or_leans, connects, opens, door, sign, used_becomes, touched_becomes, got \"flies\""},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
