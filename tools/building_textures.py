@@ -89,6 +89,19 @@ def bookshelf() -> Image:
     return Image(shade)
 
 
+def workbench(is_top: bool) -> Image:
+    """Boards with a frame; on the top a grid, on the sides tools."""
+    planks = boards(BOARDS["oak"], 640)
+
+    def shade(x, y):
+        color = planks[x, y][:3]
+        is_frame = x in (0, 15) or y in (0, 15)
+        is_line = is_top and (x in (5, 10) or y in (5, 10)) or not is_top and y == 4
+        is_tool = not is_top and (x in (4, 11) and 6 < y < 13 or y in (7, 8) and x in (3, 5, 10, 12))
+        return scaled(color, 0.45 if is_tool else 0.6 if is_frame else 0.75 if is_line else 1)
+    return Image(shade)
+
+
 # --- Masonry -----------------------------------------------------------------------------------------------
 
 def cobble() -> Image:
@@ -226,6 +239,8 @@ def lantern(is_top: bool) -> Image:
 TEXTURES = {
     **{f"{wood}_planks": (lambda c=colors, s=31 * k: boards(c, 640 + s), "opaque", True)
        for k, (wood, colors) in enumerate(BOARDS.items())},
+    "workbench_top": (lambda: workbench(True), "opaque", False),
+    "workbench_side": (lambda: workbench(False), "opaque", False),
     "ladder": (ladder, "test", True),
     "door_lower": (lambda: door(False), "opaque", False),
     "door_upper": (lambda: door(True), "opaque", False),

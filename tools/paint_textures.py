@@ -22,6 +22,7 @@ import zlib
 
 sys.dont_write_bytecode = True  # the build runs this script: nothing is written into the source tree
 import building_textures as building  # noqa: E402
+import item_textures as items  # noqa: E402
 import land_textures as land  # noqa: E402
 from texture_tools import (ALL, BARK, BLADE, CACTUS, CREAM, DIRT, EMBER, GOLD, GRASS, IRON, LAGOON, LEAF,  # noqa: E402
                            NO_GLOW, SAND, SIZE, SNOW, STEM, STONE, WOOD, Image, Patches, apart, bled, cobbles, hash01,
@@ -365,6 +366,7 @@ TEXTURES = {
     "gold_ore": (lambda: land.ore(stone(), land.NUGGET), "opaque", True),
     **land.TEXTURES,
     **building.TEXTURES,
+    **items.TEXTURES,
     "missing": (missing, "opaque", True),
 }
 

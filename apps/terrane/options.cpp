@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "apps/terrane/output_files.h"
+#include "terrane/game/player_items.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/saves/save_path.h"
 
@@ -155,6 +156,12 @@ CLI::Validator numberFrom(double low, double high) {
         return fmt::format("expected a number from {} to {}, got \"{}\"", low, high, text);
     };
     return CLI::Validator(check, fmt::format("{} to {}", low, high));
+}
+
+void addModeOption(CLI::App& command, std::string& mode) {
+    std::vector<std::pair<std::string, std::string>> choices;
+    for (const std::string_view name : game::kModeNames) choices.emplace_back(name, name);
+    addChoice(command, "--mode", mode, choices, "Mode of the world from now on; a new one is creative");
 }
 
 void addWorldOptions(CLI::App& command, io::WorldOptions& options) {

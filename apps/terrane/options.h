@@ -60,6 +60,9 @@ void addWorldArgument(CLI::App& command, const std::string& name, std::string& w
                       const std::string& description);
 void addRecreateOption(CLI::App& command, io::SaveOptions& save);
 
+// --mode: creative or survival; empty: that of the world.
+void addModeOption(CLI::App& command, std::string& mode);
+
 // -o: the file to write. Checked before the work starts: its folder must be writable and its name must have
 // one of these endings, ignoring case; no endings: any name.
 void addOutputOption(CLI::App& command, std::string& output, const std::vector<std::string>& endings,

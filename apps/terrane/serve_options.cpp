@@ -63,6 +63,7 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
                     "Newcomers appear on free ground around a column at most this many blocks from the spawn")
         ->check(numberFrom(0, 1000000))
         ->capture_default_str();
+    addModeOption(command, options.mode);
     command.add_option("--day-minutes", options.server.dayMinutes, "Length of a day in minutes")
         ->check(numberFrom(0.5, 1440))
         ->capture_default_str();

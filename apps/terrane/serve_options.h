@@ -18,6 +18,7 @@ struct ServeOptions {
     std::string publicAddress;  // empty: from the machine's name and the port
     net::ServerSettings server;
     bool isReadOnly = false;
+    std::string mode;  // of the world, by game::kModeNames; empty: its own
     MapSiteOptions map;
     std::string statistics;  // file; empty: none
 };

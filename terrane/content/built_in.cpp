@@ -2,9 +2,12 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "terrane/base/files.h"
 #include "terrane/content/content_files_internal.h"
+#include "terrane/world/blocks/block_parser.h"
+#include "terrane/world/items/item_table.h"
 
 namespace terrane::embedded {
 std::span<const base::EmbeddedFile> content();
@@ -26,9 +29,14 @@ std::vector<BuiltInFile> builtInFiles() {
 }
 
 base::Result<world::BlockRegistry> loadBlocks(const world::BehaviorTable& behaviors) {
-    const auto text = findContent("blocks.toml");
-    if (!text) return base::fail("blocks.toml: not in the program");
-    return world::BlockRegistry::parse(*text, "blocks.toml", behaviors);
+    const auto text = findContent("blocks.toml"), itemText = findContent("items.toml");
+    if (!text || !itemText) return base::fail("blocks.toml or items.toml: not in the program");
+    auto file = TERRANE_TRY(world::parseBlocks(*text, "blocks.toml", behaviors));
+    const auto items = TERRANE_TRY(world::parseItems(*itemText, "items.toml"));
+    auto blocks = TERRANE_TRY(
+        world::BlockRegistry::fromDescriptions(std::move(file.blocks), "blocks.toml", std::span(&items, 1)));
+    TERRANE_TRY(world::checkItemNames(blocks));
+    return blocks;
 }
 
 world::TextureSource builtInTextures() {

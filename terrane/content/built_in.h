@@ -12,14 +12,14 @@
 
 namespace terrane::content {
 
-// Loads the built-in block types. `behaviors` holds all behaviors that blocks may name, including the
-// built-in ones.
+// Loads the built-in block types and items. `behaviors` holds all behaviors that blocks may name, including
+// the built-in ones.
 base::Result<world::BlockRegistry> loadBlocks(
     const world::BehaviorTable& behaviors = world::builtInBehaviors());
 world::TextureSource builtInTextures();
 
-// The compiled-in files: "pack.toml", "blocks.toml", "textures/NAME.png", "languages/CODE.toml",
-// "skeleton/…".
+// The compiled-in files: "pack.toml", "blocks.toml", "items.toml", "textures/NAME.png",
+// "languages/CODE.toml", "skeleton/…".
 struct BuiltInFile {
     std::string_view path, data;  // live as long as the program
 };

@@ -123,9 +123,13 @@ std::string_view languageOfLocale(std::string_view locale) {
 }
 
 std::string blockName(const Language& language, const world::BlockType& type) {
-    const auto found = language.blocks.find(type.name);
+    return itemName(language, type.name);
+}
+
+std::string itemName(const Language& language, std::string_view name) {
+    const auto found = language.blocks.find(name);
     if (found != language.blocks.end()) return found->second;
-    std::string words = type.name.substr(type.name.find(':') + 1);  // without the name of its pack
+    std::string words(name.substr(name.find(':') + 1));  // without the name of its pack
     std::ranges::replace(words, '_', ' ');
     if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
         words[0] = static_cast<char>(words[0] - 'a' + 'A');

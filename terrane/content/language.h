@@ -46,6 +46,8 @@ std::string_view languageOfLocale(std::string_view locale);
 // Returns the display name of a block, "Oak log"; it is made from the block's own name if the language has
 // none.
 std::string blockName(const Language& language, const world::BlockType& type);
+// Does the same for an item, by its name; names of items and blocks are in one table.
+std::string itemName(const Language& language, std::string_view name);
 // Returns the translation, or the English text itself. The result is null-terminated if `english` is.
 std::string_view text(const Language& language, std::string_view english);
 

@@ -7,6 +7,7 @@
 #include "terrane/world/blocks/block_behavior.h"
 #include "terrane/world/blocks/block_model.h"
 #include "terrane/world/changes/liquid_flow.h"
+#include "terrane/world/items/item_table.h"
 
 namespace terrane::game {
 namespace {
@@ -53,13 +54,23 @@ bool BlockInteraction::use(Session& session, PlayerId id) {
     return true;
 }
 
-bool BlockInteraction::pick(const Session& session) {
+bool BlockInteraction::pick(const Session& session, PlayerId id) {
     if (!target_) return false;
     const world::BlockRegistry& blocks = session.blocks();
     const world::BlockType* type = &blocks.type(session.world().block(target_->block));
     if (world::isUpperHalf(*type)) type = &blocks.type(world::otherHalf(blocks, type->id));
     if (!isBuildable(*type, blocks)) return false;
-    selectBlock(hotbar, type->id);
+    if (session.modeOf(id) == Mode::Creative) {
+        selectBlock(hotbar, type->id);
+        return true;
+    }
+    const world::Inventory& slots = session.itemsOf(id).slots;
+    const auto end = slots.begin() + kHotbarSlots;
+    const auto found = std::find_if(slots.begin(), end, [&](const world::ItemStack& stack) {
+        return stack.count > 0 && stack.item == type->name;
+    });
+    if (found == end) return false;
+    hotbar.selected = static_cast<std::size_t>(found - slots.begin());
     return true;
 }
 
@@ -79,15 +90,49 @@ std::optional<EditResult> BlockInteraction::build(Session& session, PlayerId id,
     return session.edit({id, pos, world::SetBlock{block(), state}, there});
 }
 
+// Whether the block that the player looks at breaks in this frame: in survival, after the button was held for
+// as long as it takes.
+bool BlockInteraction::breaksNow(const Session& session, PlayerId id, double seconds) {
+    const bool isMining = breaking.isDown();
+    const bool acts = breaking.acts(seconds);
+    if (!held_) return acts;
+    const world::BlockType* type =
+        target_ ? &session.blocks().type(session.world().block(target_->block)) : nullptr;
+    const double needed = type ? world::secondsToBreak(*type, session.toolOf(id)) : 0;
+    if (needed == 0) {
+        mined_.reset();
+        return acts;
+    }
+    if (!isMining) {
+        mined_.reset();
+        return false;
+    }
+    if (!mined_ || mined_->pos != target_->block || mined_->block != type->id)
+        mined_ = {target_->block, type->id, 0};
+    mined_->done += seconds / needed;
+    if (mined_->done < 1) return false;
+    mined_.reset();
+    return true;
+}
+
 std::optional<EditResult> BlockInteraction::act(Session& session, PlayerId id, const Player& player,
                                                 double seconds) {
+    held_.reset();
+    if (session.modeOf(id) == Mode::Survival) {
+        if (session.itemsOf(id).selected != hotbar.selected)
+            session.act(id, SelectSlot{static_cast<std::uint8_t>(hotbar.selected)});
+        const world::ItemStack& hand = session.itemsOf(id).hand();
+        const world::ItemType* type = hand.count > 0 ? session.blocks().items().find(hand.item) : nullptr;
+        held_ = type ? type->block : world::kAir;
+    }
     const world::Pose& pose = player.pose();
     const world::Ray ray{pose.position, glm::dvec3(world::lookDirection(pose.yaw, pose.pitch))};
     const auto look = [&](world::BlockId liquid) {
         return world::castRay(session.world(), session.blocks(), ray, kReach, liquid);
     };
     target_ = look(world::kAir);
-    const bool breaks = breaking.acts(seconds), builds = building.acts(seconds);
+    const bool breaks = breaksNow(session, id, seconds), builds = building.acts(seconds);
+    if (builds && held_ == world::kAir) return session.act(id, UseItem{});
     // If a liquid is chosen, breaking takes its sources.
     const auto aimed = breaks && isFlowing(session.blocks().type(block())) ? look(block()) : target_;
     if (!aimed || (!breaks && !builds)) return std::nullopt;

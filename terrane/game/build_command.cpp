@@ -172,6 +172,7 @@ BuildOutcome Session::build(const BuildCommand& command) {
     const auto player = players_.find(command.player);
     const bool isPlayers = command.player != kNoPlayer && command.pack == kNoPack;
     if (isPlayers) {
+        if (modeOf(command.player) != Mode::Creative) return {Result::NotAllowed};
         if (player == players_.end()) return {Result::OutOfReach};
         if (distanceTo(boxOf(command.change), player->second.pose.position) > kBuildReach)
             return {Result::OutOfReach};

@@ -57,6 +57,12 @@ enum class EditResult : std::uint8_t {
     NotAllowed,  // to this player: Role::Guest
     Claimed,     // it is in a claim of somebody else
     Refused,     // by a listener of BeforeBlockAction (events.h), whose reason was said to the player
+    NoItem,      // in survival: the player does not have what this needs
+    NoRoom,      // in survival: the player has no room for what this gives
+    TooSoon,     // in survival: breaking the block takes longer
+    Creative,    // only in creative
+    Sent,        // to the server that decides (Authority)
+    Count
 };
 
 // The result of undoing or redoing a step.

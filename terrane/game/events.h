@@ -135,6 +135,20 @@ struct BlocksChanged {
     std::span<const ChangedBlock> blocks;
 };
 
+// The items or the mode of a player changed. Told after the changes of blocks that belong to it.
+struct ItemsChanged {
+    PlayerId player = kNoPlayer;
+};
+// A player used an item that is no block. Food is one less by now.
+struct ItemUsed {
+    PlayerId player = kNoPlayer;
+    std::string item;
+};
+struct ItemsCrafted {
+    PlayerId player = kNoPlayer;
+    world::ItemStack made;
+};
+
 struct ClaimChanged {
     Claim claim;
     bool isAdded = false;  // else removed
@@ -174,6 +188,9 @@ struct Events {
     Listeners<BlocksChanged> changed;
     // As `changed`, also with changes that nobody can undo: liquid that becomes unsettled.
     Listeners<BlocksChanged> changedAtAll;
+    Listeners<ItemsChanged> items;
+    Listeners<ItemUsed> itemUsed;
+    Listeners<ItemsCrafted> crafted;
     Listeners<ClaimChanged> claim;
     Listeners<Ticked> tick;
     Listeners<RandomTicked> randomTick;

@@ -78,13 +78,18 @@ void Session::buildTiles() {
 }
 
 EditResult Session::edit(const EditCommand& command) {
+    // Chests change by act(), so that no item comes from nowhere.
+    if (isSurvival(command) && std::holds_alternative<world::SetEntityData>(command.change) &&
+        isContainer(world_, *blocks_, command.pos))
+        return EditResult::Creative;
     if (authority_.edited && command.player != kNoPlayer) return predictEdit(command);
     return applyAll(std::span(&command, 1)).front();
 }
 
 std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
-    if (!authority_.edited) return applyAll(commands);
-    std::vector<EditResult> results;  // the authority decides on one command at a time
+    const auto isInSurvival = [this](const EditCommand& command) { return isSurvival(command); };
+    if (!authority_.edited && std::ranges::none_of(commands, isInSurvival)) return applyAll(commands);
+    std::vector<EditResult> results;  // the authority, and survival, decide on one command at a time
     for (const EditCommand& command : commands) results.push_back(edit(command));
     return results;
 }
@@ -107,6 +112,7 @@ std::vector<EditResult> Session::applyAll(std::span<const EditCommand> commands)
     std::vector<world::BlockEdit> edits;
     std::map<Author, PlayerChanges> changes;
     std::vector<BlockAction> actions;
+    auto held = together ? together() : nullptr;
     results.reserve(commands.size());
     for (const EditCommand& command : commands) {
         const auto action = actionOf(command);
@@ -124,6 +130,8 @@ std::vector<EditResult> Session::applyAll(std::span<const EditCommand> commands)
     }
     const EditCommand first = commands.empty() ? EditCommand{} : commands.front();
     notifyEdits({first.player, first.pack}, edits);
+    for (const PlayerId player : std::exchange(paid_, {})) notifyItems(player);
+    held.reset();
     for (BlockAction& action : actions) events.block.notify(action);
     return results;
 }
@@ -167,7 +175,9 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     const bool isText = data && world::isSign(blocks_->type(world_.block(command.pos)));
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     if (data && !maySetItems(world_, *blocks_, command.pos, data->data)) return EditResult::BadData;
+    if (const auto refused = refusalOfSurvival(command)) return *refused;
     if (const auto action = actionOf(command); action && isRefused(*action)) return EditResult::Refused;
+    const world::BlockId there = world_.block(command.pos);
     const std::size_t before = edits.size();
     const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
     // Changes by nobody are one step, recorded only for a history: of scripts if it hears all, of packs, and
@@ -181,14 +191,20 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     world::BlockRecorder own;  // of a change that may have to be taken back
     world::BlockRecorder* const recorder = mayBeRefused ? &own : &recorded;
     world::applyChange(world_, *blocks_, command.pos, command.change, edits, isRecorded ? recorder : nullptr);
-    if (!mayBeRefused) return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
+    if (!mayBeRefused) {
+        if (edits.size() == before) return EditResult::Unchanged;
+        settle(command, there);
+        return EditResult::Applied;
+    }
     std::vector<world::PlacedBlock> former = own.take();
     if (breaksForeign(command.player, std::span(edits).subspan(before))) {
         takeBackAll(former, edits, before);
         return EditResult::Claimed;
     }
     for (world::PlacedBlock& block : former) recorded.note(block.pos, std::move(block.value));
-    return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
+    if (edits.size() == before) return EditResult::Unchanged;
+    settle(command, there);
+    return EditResult::Applied;
 }
 
 // Whether a consequence of a player's change replaces a block that the player may not change, such as a torch
@@ -202,6 +218,7 @@ bool Session::breaksForeign(PlayerId player, std::span<const world::BlockEdit> e
 
 UndoResult Session::undoOrRedo(PlayerId player, HistoryWay way) {
     using Outcome = UndoResult::Outcome;
+    if (modeOf(player) != Mode::Creative) return {Outcome::NotAllowed};
     if (authority_.undoOrRedo) {
         authority_.undoOrRedo(player, way);
         return {Outcome::Sent};
@@ -320,6 +337,7 @@ void Session::advance(double seconds, world::ChunkPos center) {
 
 void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
     clock.advance(seconds);
+    seconds_ += seconds;
     if (authority_.edited) return;
     const double tickSeconds = std::chrono::duration<double>(world::kTickLength).count();
     untilTick_ += std::min(seconds, kMaxTickSeconds);
@@ -369,7 +387,7 @@ std::optional<world::Pose> Session::poseOf(PlayerId player) const {
 }
 
 void Session::queueSaves() {
-    const auto together = store_->together();
+    const auto held = store_->together();
     pipeline_.saveAll();
     events.saving.notify({});
 }

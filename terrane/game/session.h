@@ -19,6 +19,7 @@
 #include "terrane/game/edit_history.h"
 #include "terrane/game/events.h"
 #include "terrane/game/permissions.h"
+#include "terrane/game/player_items.h"
 #include "terrane/game/player_state.h"
 #include "terrane/game/session_parts.h"
 #include "terrane/gen/level_generators.h"
@@ -52,6 +53,23 @@ class Session {
     // with its immediate consequences; using blocks (doors, containers) is not a step. The distance is not
     // checked, since these blocks were in reach before.
     UndoResult undoOrRedo(PlayerId player, HistoryWay way);
+
+    // Acts with the items of a player, in any mode: moves a stack, crafts, uses an item, selects a slot.
+    // Items and the blocks that hold them change together.
+    EditResult act(PlayerId player, const ItemAction& action);
+    // Adds items to those of a player; returns the number of items that did not fit.
+    int give(PlayerId player, const world::ItemStack& stack);
+    // Takes at most `count` items from a player; returns their number.
+    int take(PlayerId player, std::string_view item, int count);
+    // Sets the mode of a player; none: the world's.
+    void setMode(PlayerId player, std::optional<Mode> mode);
+    Mode modeOf(PlayerId player) const;
+    const PlayerItems& itemsOf(PlayerId player) const;  // none of an unknown player
+    bool knowsItems(PlayerId player) const { return items_.contains(player); }
+    // Sets the items of a player, as a store or a server has them; tells nobody.
+    void setItems(PlayerId player, PlayerItems items);
+    // Returns what the player holds as a tool.
+    world::Tool toolOf(PlayerId player) const;
 
     // Returns the chunks that undoOrRedo() needs loaded; empty if there is no such step.
     std::vector<world::ChunkPos> chunksOfNextStep(PlayerId player, HistoryWay way) const;
@@ -101,6 +119,10 @@ class Session {
     base::JobSystem& jobs() { return jobs_; }
 
     DayClock clock;
+    Mode mode = Mode::Creative;  // of players without their own
+    // Holds the changes that one command causes together until the result is released, so that a crash leaves
+    // all or none of them. May be empty.
+    std::function<std::shared_ptr<void>()> together;
     Permissions permissions;
     Events events;
     std::vector<ChatCommand> chatCommands;
@@ -110,6 +132,7 @@ class Session {
     struct PlayerEntry {
         world::Pose pose;
         EditHistory history;
+        double breaksSince = 0;  // seconds of the session; time before is spent on broken blocks
     };
     // The changes of a player's commands: steps that can be undone, and uses (doors, containers).
     struct PlayerChanges {
@@ -131,6 +154,15 @@ class Session {
     EditStep notifyStep(Author author, world::BlockRecorder& recorder);
     bool hasHistory() const { return !events.changed.isEmpty() || !events.changedAtAll.isEmpty(); }
     EditResult predictEdit(const EditCommand& command);
+    bool isSurvival(const EditCommand& command) const;
+    std::optional<EditResult> refusalOfSurvival(const EditCommand& command) const;
+    void settle(const EditCommand& command, world::BlockId there);
+    world::ItemStack dropOf(PlayerId player, world::BlockId block) const;
+    EditResult move(PlayerId player, const MoveStack& wanted);
+    EditResult craft(PlayerId player, const CraftItems& craft);
+    EditResult useItem(PlayerId player);
+    EditResult select(PlayerId player, const SelectSlot& select);
+    void notifyItems(PlayerId player) { events.items.notify({player}); }
 
     // These refer to each other and are destroyed in reverse order.
     std::shared_ptr<const world::BlockRegistry> blocks_;
@@ -146,6 +178,10 @@ class Session {
 
     std::unordered_map<PlayerId, PlayerEntry> players_;
     world::FlowRecord flow_;  // who made liquid flow, by numberOf(); kept only for a history
+    std::unordered_map<PlayerId, PlayerItems> items_;  // of all who played since the session began
+    std::vector<PlayerId> paid_;        // whose items changed with blocks that were not told yet
+    std::optional<PlayerItems> moved_;  // of the player who moves a stack, once the block has changed
+    double seconds_ = 0;                // of game time
     Authority authority_;
     double untilTick_ = 0;  // seconds of game time that are not yet a whole tick
     std::uint64_t ticks_ = 0;

@@ -8,6 +8,7 @@
 #include "terrane/game/build_command.h"
 #include "terrane/game/edit_command.h"
 #include "terrane/game/edit_history.h"
+#include "terrane/game/player_items.h"
 #include "terrane/gen/batch_generator.h"
 #include "terrane/gen/level_generators.h"
 #include "terrane/light/batch_lighter.h"
@@ -40,6 +41,7 @@ struct Authority {
     std::function<void(const EditCommand&, std::span<const ChangedBlock> changed)> edited;
     std::function<void(const BuildCommand&)> build;
     std::function<void(PlayerId, HistoryWay)> undoOrRedo;
+    std::function<void(const ItemAction&)> act;  // with the local player's items; they wait for it
 };
 
 }  // namespace terrane::game

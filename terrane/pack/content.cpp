@@ -13,6 +13,7 @@
 #include "terrane/content/resource_pack.h"
 #include "terrane/lua/script.h"
 #include "terrane/world/blocks/block_parser.h"
+#include "terrane/world/items/item_table.h"
 
 namespace terrane::pack {
 
@@ -100,27 +101,62 @@ struct BlockCollector {
     const world::BehaviorTable& behaviors;
     std::vector<world::BlockDescription> blocks;
     std::vector<world::ShapePtr> builtInShapes;
+    std::vector<world::ItemFile> items;
 };
 
-// Blocks that behaviors name are the pack's own ones if it has them.
-void qualifyBlocks(const Pack& pack, std::vector<world::BlockDescription>& blocks) {
-    std::unordered_set<std::string> own;
+using Names = std::unordered_set<std::string>;
+
+// Blocks and items that the pack names are its own ones if it has them.
+void qualify(const Pack& pack, const Names& own, std::string& name) {
+    if (own.contains(name)) name = qualifiedName(pack, name);
+}
+
+void qualifyBlocks(const Pack& pack, std::vector<world::BlockDescription>& blocks, const Names& ownItems) {
+    Names own;
     for (const world::BlockDescription& block : blocks) own.insert(block.type.name);
     for (world::BlockDescription& block : blocks) {
         block.type.name = qualifiedName(pack, block.type.name);
+        qualify(pack, ownItems, block.type.drop.item);
         for (world::BehaviorCall& call : block.calls)
-            for (auto& [parameter, name] : call.arguments.blocks)
-                if (own.contains(name)) name = qualifiedName(pack, name);
+            for (auto& [parameter, name] : call.arguments.blocks) qualify(pack, own, name);
     }
 }
 
-base::Result<void> readBlocks(const Pack& pack, const Pack& builtIn, BlockCollector& collector) {
+base::Result<void> qualifyItems(const Pack& pack, const Pack& builtIn, const Names& own,
+                                world::ItemFile& file) {
+    for (std::size_t k = 0; k < file.items.size(); ++k) {
+        world::ItemType& item = file.items[k];
+        item.name = qualifiedName(pack, item.name);
+        std::string texture = textureName(pack, builtIn, item.texture);
+        if (texture.empty())
+            return base::fail(base::ErrorCode::BadInput,
+                              "{}:{}: texture: there is no textures/{}.png in the pack, and no built-in one",
+                              displayPath(pack, "items.toml"), file.itemLines[k], item.texture);
+        item.texture = std::move(texture);
+    }
+    for (world::Recipe& recipe : file.recipes) {
+        qualify(pack, own, recipe.makes);
+        for (world::Recipe::Ingredient& ingredient : recipe.ingredients)
+            for (std::string& name : ingredient) qualify(pack, own, name);
+    }
+    return {};
+}
+
+// Reads the blocks and items of a pack.
+base::Result<void> readTypes(const Pack& pack, const Pack& builtIn, BlockCollector& collector) {
     const std::string* text = fileOf(pack, "blocks.toml");
-    if (!text) return {};
-    auto read = TERRANE_TRY(world::parseBlocks(*text, displayPath(pack, "blocks.toml"), collector.behaviors,
-                                               collector.builtInShapes));
+    const std::string* itemText = fileOf(pack, "items.toml");
+    auto read = TERRANE_TRY(world::parseBlocks(text ? *text : std::string(), displayPath(pack, "blocks.toml"),
+                                               collector.behaviors, collector.builtInShapes));
+    auto items =
+        TERRANE_TRY(world::parseItems(itemText ? *itemText : std::string(), displayPath(pack, "items.toml")));
+    Names own;
+    for (const world::BlockDescription& block : read.blocks) own.insert(block.type.name);
+    for (const world::ItemType& item : items.items) own.insert(item.name);
     for (world::BlockDescription& block : read.blocks) TERRANE_TRY(qualifyTextures(pack, builtIn, block));
-    qualifyBlocks(pack, read.blocks);
+    qualifyBlocks(pack, read.blocks, own);
+    TERRANE_TRY(qualifyItems(pack, builtIn, own, items));
+    collector.items.push_back(std::move(items));
     std::ranges::move(read.blocks, std::back_inserter(collector.blocks));
     if (&pack == &builtIn) collector.builtInShapes = std::move(read.shapes);
     return {};
@@ -209,10 +245,11 @@ base::Result<Content> loadContent(std::vector<Pack> packs, const world::Behavior
     Content content;
     content.packs = std::make_shared<const std::vector<Pack>>(std::move(ordered));
 
-    BlockCollector collector{behaviors, {}, {}};
-    for (const Pack& pack : *content.packs) TERRANE_TRY(readBlocks(pack, content.packs->front(), collector));
-    auto blocks =
-        TERRANE_TRY(world::BlockRegistry::fromDescriptions(std::move(collector.blocks), "blocks.toml"));
+    BlockCollector collector{behaviors, {}, {}, {}};
+    for (const Pack& pack : *content.packs) TERRANE_TRY(readTypes(pack, content.packs->front(), collector));
+    auto blocks = TERRANE_TRY(
+        world::BlockRegistry::fromDescriptions(std::move(collector.blocks), "blocks.toml", collector.items));
+    TERRANE_TRY(world::checkItemNames(blocks));
     content.blocks = std::make_shared<const world::BlockRegistry>(std::move(blocks));
     TERRANE_TRY(checkTextures(*content.packs, content.blocks->textures().size()));
     content.textures = texturesOf(content.packs);

@@ -136,9 +136,9 @@ bool hasPack(const std::vector<Pack>& packs, std::string_view name) {
 }
 
 bool isPackPath(std::string_view path) {
-    return path == kInfoFile || path == "blocks.toml" || !nameIn(path, "textures/", ".png").empty() ||
-           !nameIn(path, "generators/", ".lua").empty() || !nameIn(path, kScripts, ".lua").empty() ||
-           !nameIn(path, "languages/", ".toml").empty();
+    return path == kInfoFile || path == "blocks.toml" || path == "items.toml" ||
+           !nameIn(path, "textures/", ".png").empty() || !nameIn(path, "generators/", ".lua").empty() ||
+           !nameIn(path, kScripts, ".lua").empty() || !nameIn(path, "languages/", ".toml").empty();
 }
 
 PackFiles clientFiles(const PackFiles& files) {

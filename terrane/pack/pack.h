@@ -50,8 +50,8 @@ struct Pack {
 bool isPackName(std::string_view text);
 bool hasPack(const std::vector<Pack>& packs, std::string_view name);
 
-// Returns whether a file of this path belongs to packs: pack.toml, blocks.toml, textures/NAME.png,
-// generators/NAME.lua, scripts/NAME.lua, languages/CODE.toml. Others are left out.
+// Returns whether a file of this path belongs to packs: pack.toml, blocks.toml, items.toml,
+// textures/NAME.png, generators/NAME.lua, scripts/NAME.lua, languages/CODE.toml. Others are left out.
 bool isPackPath(std::string_view path);
 constexpr std::string_view kScripts = "scripts/";
 

@@ -18,10 +18,11 @@ struct KindName {
     bool hasBefore, hasBlock;
 };
 // By EventKind.
-constexpr KindName kKinds[] = {{"join", false, false},   {"leave", false, false}, {"chat", true, false},
-                               {"command", true, false}, {"place", true, true},   {"break", true, true},
-                               {"use", true, true},      {"build", true, false},  {"claim", false, false},
-                               {"tick", false, false},   {"random", false, true}};
+constexpr KindName kKinds[] = {{"join", false, false},    {"leave", false, false}, {"chat", true, false},
+                               {"command", true, false},  {"place", true, true},   {"break", true, true},
+                               {"use", true, true},       {"build", true, false},  {"itemused", false, false},
+                               {"crafted", false, false}, {"claim", false, false}, {"tick", false, false},
+                               {"random", false, true}};
 static_assert(std::size(kKinds) == static_cast<std::size_t>(EventKind::Count));
 
 EventKind kindAt(RuleCall& c) {
@@ -208,6 +209,14 @@ std::optional<std::string> tellCommand(RulesHost& host, const game::CommandLine&
     });
 }
 
+void tellItem(RulesHost& host, const Told& told, std::string_view item, std::int64_t count) {
+    (void)tell(host, told, false, [&](lua_State* L) {
+        setPlayer(L, told.actor);
+        setField(L, "item", item);
+        if (told.kind == EventKind::Crafted) setField(L, "count", count);
+    });
+}
+
 void tellClaim(RulesHost& host, const game::ClaimChanged& event) {
     const game::ColumnArea& area = event.claim.area;
     (void)tell(host, {EventKind::Claim}, false, [&](lua_State* L) {
@@ -293,6 +302,12 @@ void listen(RulesHost& host) {
     keep(events.beforeBuild.add(
         [&host](game::BeforeBuildAction& event) { event.refusal = tellBuild(host, event, true); }));
     keep(events.build.add([&host](const game::BuildAction& event) { (void)tellBuild(host, event, false); }));
+    keep(events.itemUsed.add([&host](const game::ItemUsed& event) {
+        tellItem(host, {EventKind::ItemUsed, event.player}, event.item, 1);
+    }));
+    keep(events.crafted.add([&host](const game::ItemsCrafted& event) {
+        tellItem(host, {EventKind::Crafted, event.player}, event.made.item, event.made.count);
+    }));
     keep(events.claim.add([&host](const game::ClaimChanged& event) { tellClaim(host, event); }));
     keep(events.tick.add([&host](const game::Ticked&) { runTick(host); }));
     keep(events.randomTick.add([&host](const game::RandomTicked& event) {

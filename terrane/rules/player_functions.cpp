@@ -27,8 +27,43 @@ int sayTo(RuleCall& c) {
     return 0;
 }
 
-constexpr RuleFunction kMethods[] = {{"say", sayTo}};
-constexpr std::string_view kMembers[] = {"id", "name", "pos", "yaw", "pitch", "role", "isOnline"};
+// In steps of 5 ns: all changed chunks are passed to the store with the items.
+constexpr std::int64_t kStepsOfItems = 10'000;
+
+int countAt(RuleCall& c, int argument) {
+    return c.isMissing(argument) ? 1 : c.integer(argument, 0, kMaxItemCount);
+}
+
+// Returns the number of items that found room.
+int give(RuleCall& c) {
+    c.requireChange();
+    c.charge(kStepsOfItems);
+    const game::PlayerId to = c.player(1);
+    const std::string item = c.item(2);
+    const int count = countAt(c, 3);
+    if (!c.pack.host.players.contains(to)) return c.push(std::int64_t{0});
+    const int left = c.session.give(to, {item, static_cast<std::uint16_t>(count)});
+    return c.push(std::int64_t{count - left});
+}
+
+// Returns the number of items that the player had.
+int take(RuleCall& c) {
+    c.requireChange();
+    c.charge(kStepsOfItems);
+    const game::PlayerId from = c.player(1);
+    const std::string item = c.item(2);
+    return c.push(std::int64_t{c.session.take(from, item, countAt(c, 3))});
+}
+
+int count(RuleCall& c) {
+    c.charge(game::kPlayerSlots * 2);
+    const std::string item = c.item(2);
+    return c.push(std::int64_t{world::countItems(c.session.itemsOf(c.player(1)).slots, item)});
+}
+
+constexpr RuleFunction kMethods[] = {{"say", sayTo}, {"give", give}, {"take", take}, {"count", count}};
+constexpr std::string_view kMembers[] = {"id",   "name",     "pos",  "yaw", "pitch",
+                                         "role", "isOnline", "mode", "hand"};
 
 int pushMember(RuleCall& c, game::PlayerId id, std::string_view key) {
     const auto& players = c.pack.host.players;
@@ -38,6 +73,12 @@ int pushMember(RuleCall& c, game::PlayerId id, std::string_view key) {
         return c.push(std::string_view(known == players.end() ? std::string() : known->second));
     if (key == "pos") return c.push(pose.position);
     if (key == "role") return c.push(kRoles[static_cast<std::size_t>(c.session.permissions.roleOf(id))]);
+    if (key == "mode") return c.push(game::kModeNames[static_cast<std::size_t>(c.session.modeOf(id))]);
+    if (key == "hand") {
+        const world::ItemStack& hand = c.session.itemsOf(id).hand();
+        if (hand.count > 0) return c.push(std::string_view(hand.item));
+        lua_pushnil(c.L);
+    }
     if (key == "id") lua_pushinteger(c.L, id);
     if (key == "yaw") lua_pushnumber(c.L, static_cast<lua_Number>(pose.yaw));
     if (key == "pitch") lua_pushnumber(c.L, static_cast<lua_Number>(pose.pitch));

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrane/base/text.h"
 #include "terrane/rules/rules_internal.h"
+#include "terrane/world/items/item_table.h"
 
 namespace terrane::rules {
 namespace {
@@ -36,6 +38,18 @@ world::BlockPos RuleCall::pos(int argument) {
 world::BlockId RuleCall::block(int argument) {
     const std::string name = pack.blockNames.find(text(argument));
     return name == "air" ? world::kAir : session.blocks().find(name)->id;
+}
+
+// An item of the pack needs no prefix.
+std::string RuleCall::item(int argument) {
+    const std::string_view name = text(argument);
+    const world::ItemTable& table = session.blocks().items();
+    const std::string own = pack.name + ":" + std::string(name);
+    if (table.find(own)) return own;
+    if (table.find(name)) return std::string(name);
+    std::vector<std::string> names;
+    for (const world::ItemType& type : table.types()) names.push_back(type.name);
+    lua::fail("{}: there is no item \"{}\"{}", function, name, base::didYouMean(name, names));
 }
 
 std::uint16_t RuleCall::state(int argument) {
@@ -75,6 +89,11 @@ int RuleCall::keep(int argument) {
 
 int RuleCall::push(std::string_view text) {
     lua_pushlstring(L, text.data(), text.size());
+    return 1;
+}
+
+int RuleCall::push(std::int64_t number) {
+    lua_pushinteger(L, number);
     return 1;
 }
 

@@ -33,6 +33,7 @@ constexpr int kMaxSaidLines = 100;           // of a pack in a tick
 constexpr std::int32_t kMaxFindRadius = 16;  // 33³ = 35,937 blocks
 constexpr std::int64_t kMaxFillBlocks = 32'768;
 constexpr double kMaxRayBlocks = 64;
+constexpr std::int32_t kMaxItemCount = 10'000;  // given, put or taken at once
 
 // The events that scripts hear: all of game::Events that are no matter of screens and disks.
 enum class EventKind : std::uint8_t {
@@ -44,6 +45,8 @@ enum class EventKind : std::uint8_t {
     Break,
     Use,
     Build,
+    ItemUsed,
+    Crafted,
     Claim,
     Tick,
     Random,
@@ -130,6 +133,7 @@ class RuleCall : public lua::Call {
     world::BlockPos pos(int argument);  // a table {x, y, z}; rounds down
     glm::dvec3 point(int argument);
     world::BlockId block(int argument);  // by name
+    std::string item(int argument);      // by name, which an item has
     std::uint16_t state(int argument);   // 0 if it is missing
     double real(int argument, double least, double most) const;
     game::PlayerId player(int argument) const;
@@ -143,6 +147,7 @@ class RuleCall : public lua::Call {
     int push(world::BlockPos pos);
     int push(const glm::dvec3& point);
     int pushBlock(world::BlockId block);
+    int push(std::int64_t number);
     int pushPlayer(game::PlayerId player);
 };
 
@@ -170,6 +175,9 @@ void runTick(RulesHost& host);
 void loadStorage(PackRules& pack);
 // Passes all storage that changed to the store, in one transaction with all changed blocks.
 void saveStorage(RulesHost& host);
+// Steps of 5 ns: what a script changes is lit, meshed, saved and sent later.
+constexpr std::int64_t kStepsOfChange = 1000;
+
 // Passes that of one pack, while the session queues saves.
 void queueStorage(PackRules& pack);
 

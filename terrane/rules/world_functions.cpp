@@ -3,15 +3,15 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "terrane/game/items.h"
 #include "terrane/light/chunk_light.h"
 #include "terrane/rules/rules_internal.h"
+#include "terrane/world/items/item_table.h"
 #include "terrane/world/ray_cast.h"
 
 namespace terrane::rules {
 namespace {
 
-// In steps of 5 ns: a change is lit, meshed, saved and sent later.
-constexpr std::int64_t kStepsOfChange = 1000;
 constexpr std::int64_t kStepsOfFilled = 20;
 constexpr std::int64_t kStepsOfFound = 4;
 constexpr std::int64_t kStepsOfRayBlock = 40;
@@ -211,10 +211,66 @@ int top(RuleCall& c) {
     return 1;
 }
 
-constexpr RuleFunction kWorld[] = {
-    {"block", block},     {"state", state},   {"set", setBlock}, {"fill", fill},     {"setState", setState},
-    {"find", findBlock},  {"ray", ray},       {"light", light},  {"biome", biome},   {"time", time},
-    {"setTime", setTime}, {"height", height}, {"seed", seed},    {"bottom", bottom}, {"top", top}};
+// The items of the block at a position, such as a chest; nothing if it holds none, or is not loaded.
+std::optional<world::Inventory> itemsAt(RuleCall& c, world::BlockPos pos) {
+    const world::World& blocks = c.session.world();
+    if (!blocks.isMade(pos) || !game::isContainer(blocks, c.session.blocks(), pos)) return std::nullopt;
+    auto items = game::itemsOf(blocks, c.session.blocks(), pos);
+    if (!items) return std::nullopt;
+    c.charge(static_cast<std::int64_t>(items->size()) * kStepsOfFound);
+    return std::move(*items);
+}
+
+// A list of tables with the item and the count of each stack.
+int items(RuleCall& c) {
+    const auto held = itemsAt(c, c.pos(1));
+    if (!held) {
+        lua_pushnil(c.L);
+        return 1;
+    }
+    lua_createtable(c.L, 0, 0);
+    lua_Integer number = 0;
+    for (const world::ItemStack& stack : *held) {
+        if (stack.count == 0) continue;
+        lua_createtable(c.L, 0, 2);
+        setField(c.L, "item", stack.item);
+        setField(c.L, "count", std::int64_t{stack.count});
+        lua_rawseti(c.L, -2, ++number);
+    }
+    return 1;
+}
+
+// Changes the items of a block and returns how many were put or taken.
+int changeItems(RuleCall& c, bool puts) {
+    c.requireChange();
+    c.charge(kStepsOfChange);
+    const world::BlockPos pos = c.pos(1);
+    const std::string item = c.item(2);
+    const int count = c.isMissing(3) ? 1 : c.integer(3, 0, kMaxItemCount);
+    auto held = itemsAt(c, pos);
+    if (!held) return c.push(std::int64_t{0});
+    const int limit = c.session.blocks().items().maxStackOf(item);
+    const int done =
+        puts ? count - world::addItems(*held, item, count, limit) : world::takeItems(*held, item, count);
+    if (done == 0) return c.push(std::int64_t{0});
+    const auto result = c.session.edit(
+        {c.pack.actor, pos, world::SetEntityData{world::encodeInventory(*held)}, std::nullopt, c.pack.id});
+    return c.push(std::int64_t{result == game::EditResult::Applied ? done : 0});
+}
+
+int putItems(RuleCall& c) {
+    return changeItems(c, true);
+}
+int takeItems(RuleCall& c) {
+    return changeItems(c, false);
+}
+
+constexpr RuleFunction kWorld[] = {{"block", block}, {"state", state},       {"set", setBlock},
+                                   {"fill", fill},   {"setState", setState}, {"find", findBlock},
+                                   {"ray", ray},     {"light", light},       {"biome", biome},
+                                   {"time", time},   {"setTime", setTime},   {"height", height},
+                                   {"seed", seed},   {"bottom", bottom},     {"top", top},
+                                   {"items", items}, {"putItems", putItems}, {"takeItems", takeItems}};
 constexpr RuleFunction kPos = {"pos", makePos};
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "terrane/content/built_in.h"
+#include "terrane/world/items/item_table.h"
 
 namespace terrane::content {
 namespace {
@@ -31,8 +32,10 @@ TEST(Language, EveryFileNamesEveryBlock) {
         ASSERT_TRUE(language) << language.error().message;
         for (const world::BlockType& type : blocks.types())
             EXPECT_TRUE(language->blocks.contains(type.name)) << code << ": " << type.name;
+        for (const world::ItemType& item : blocks.items().types())
+            EXPECT_TRUE(language->blocks.contains(item.name)) << code << ": " << item.name;
         for (const auto& [name, shown] : language->blocks)
-            EXPECT_NE(blocks.find(name), nullptr) << code << " names no block: " << name;
+            EXPECT_TRUE(blocks.find(name) || blocks.items().find(name)) << code << " names nothing: " << name;
     }
 }
 

@@ -73,7 +73,7 @@ TEST_F(ContainerTest, DataThatIsNoInventoryIsNamed) {
     world::applyChange(world_, blocks_, kChest, world::SetEntityData{{std::byte{7}}}, edits);
     const auto items = itemsOf(world_, blocks_, kChest);
     ASSERT_FALSE(items);
-    EXPECT_EQ(items.error().message, "the chest at 3,4,50: not an inventory of version 1");
+    EXPECT_EQ(items.error().message, "the chest at 3,4,50: not an inventory of version 1 or 2");
 }
 
 TEST_F(ContainerTest, TakesInventoriesWithItsSlotsAlone) {

@@ -35,7 +35,8 @@ std::vector<ClientMessage> clientMessages() {
         Pong{123456},
         AskPlayers{},
         Leave{},
-        AskPack{1, 65536}};
+        AskPack{1, 65536},
+        ItemCommand{11, game::MoveStack{{world::BlockPos{-1, 2, 3}, 26}, {{}, 44}, 99}}};
 }
 
 std::vector<ServerMessage> serverMessages() {
@@ -43,6 +44,8 @@ std::vector<ServerMessage> serverMessages() {
     nonce[5] = std::byte{3};
     WorldOffer offer{{{42, "continents", 3, {-64, 320}}, 77, 88}, {}, {{"isles", "1.2", {}, 4096}}};
     offer.samples[7] = {-9, 11};
+    world::Inventory worn(game::kPlayerSlots);
+    worn[3] = {"iron_pick", 1, 249};
     const ChunkDifference blocks{{-5, {3, 1, {}}}, {6, {3, 1, {}}}, {900, {2, 0, {}}}};
     return {Greeting{"terrane 0.2", nonce, true},
             offer,
@@ -62,7 +65,8 @@ std::vector<ServerMessage> serverMessages() {
             PlayerList{{{"Ada", game::Role::Player, 20}, {"Ben", game::Role::Guest, 65535}}},
             RoleChanged{game::Role::Guest},
             Servers{{{"b.example:4000", std::string(64, 'a')}, {"[::1]:1", ""}}},
-            PackPart{1, 65536, {std::byte{1}, std::byte{2}}}};
+            PackPart{1, 65536, {std::byte{1}, std::byte{2}}},
+            Items{game::Mode::Survival, worn}};
 }
 
 TEST(Messages, EachReadsBack) {

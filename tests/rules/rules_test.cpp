@@ -167,6 +167,52 @@ TEST_F(RulesTest, PlayersAreKnown) {
         ElementsAre("Ann", "1", "5.5", "0.0", "0.0", "player", "true", "1", "true", "true", "Player"));
 }
 
+TEST_F(RulesTest, PlayersHaveItems) {
+    session_.mode = game::Mode::Survival;
+    EXPECT_THAT(
+        valuesOf(
+            "p.mode, tostring(p.hand), p:give('torch', 5), p.hand, p:give('iron_pick'), p:count('torch'), "
+            "p:take('torch', 9), p:count('torch'), p:count('iron_pick')",
+            "p = nil events.on('join', function(e) p = e.player end)"),
+        testing::ElementsAre("survival", "nil", "5", "torch", "1", "5", "5", "0", "1"));
+    for (const char* wrong : {"p:give('torhc')", "p:give('torch', -1)", "p:give()", "p.give('torch')"}) {
+        run("events.on('join', function(e) local p = e.player " + std::string(wrong) + " end)");
+        EXPECT_THAT(problems(), testing::SizeIs(1)) << wrong;
+    }
+    run("events.on('join', function(e) e.player:give('torhc') end)");
+    EXPECT_THAT(problems(), testing::ElementsAre(
+                                "test/scripts/main.lua:1: give: there is no item \"torhc\"; did you mean "
+                                "torch?"));
+    run("events.before('place', function(e) e.player:give('torch') end)");
+    (void)set(above_, "stone");
+    session_.mode = game::Mode::Creative;
+    (void)set(above_, "stone");
+    EXPECT_THAT(problems(), testing::ElementsAre(testing::HasSubstr("only decides")));
+}
+
+TEST_F(RulesTest, ChestsHaveItems) {
+    session_.edit({game::kNoPlayer, above_, world::SetBlock{contentBlock("chest")}, std::nullopt});
+    EXPECT_THAT(
+        valuesOf("tostring(world.items(ground)), #world.items(chest), world.putItems(chest, 'coal', 120), "
+                 "world.takeItems(chest, 'coal', 1), world.items(chest)[2].item, "
+                 "world.items(chest)[2].count, world.putItems(ground, 'coal'), "
+                 "world.putItems(chest, 'iron_pick', 40)",
+                 "chest = pos(5, 5, 64) ground = pos(5, 5, 63)"),
+        testing::ElementsAre("nil", "0", "120", "1", "coal", "20", "0", "25"));
+}
+
+TEST_F(RulesTest, ItemsThatPlayersUseAndMakeAreTold) {
+    run("events.on('itemused', function(e) chat.say(e.player.name .. ' used ' .. e.item) end)\n"
+        "events.on('crafted', function(e) chat.say('made ' .. e.count .. ' ' .. e.item) end)");
+    session_.give(game::kLocalPlayer, {"bread", 1});
+    session_.act(game::kLocalPlayer, game::UseItem{});
+    session_.give(game::kLocalPlayer, {"birch_log", 1});
+    session_.act(game::kLocalPlayer, game::MoveStack{{{}, 0}, {{}, 40}, 1});
+    session_.act(game::kLocalPlayer, game::CraftItems{});
+    EXPECT_THAT(lines_, testing::ElementsAre("Ann used bread", "made 4 birch_planks"));
+    EXPECT_THAT(problems(), testing::IsEmpty());
+}
+
 TEST_F(RulesTest, LinesGoToOneOrToAll) {
     std::vector<game::PlayerId> to;
     const game::Subscription hearing =

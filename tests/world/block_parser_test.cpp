@@ -35,7 +35,7 @@ constexpr std::string_view kAllKeys =
     "name, like, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
     "emission, "
     "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
-    "behaviors, tint, climbable, replaceable, group, sound";
+    "behaviors, tint, climbable, replaceable, group, sound, hardness, tool, tool_level, drops";
 
 // What the second of two blocks does not set is as in the first.
 constexpr std::string_view kLamp =
@@ -136,7 +136,8 @@ TEST(BlockParser, BadLines) {
         {"behaviors = \"falling\"",
          "blocks.toml:5: behaviors: expected an array of names and tables, got \"falling\""},
         {"behaviors = [\"plant\",\n \"flies\"]",
-         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, flows, stands, leans, "
+         "blocks.toml:6: behaviors: expected one of plant, crop, falling, container, workbench, flows, "
+         "stands, leans, "
          "stands_or_leans, connects, opens, door, sign, used_becomes, touched_becomes, got \"flies\""},
         {"alpha = \"test\"", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},
         {"alpha = { top = \"blend\" }", "blocks.toml:1: opacity: missing (only opaque cubes have a default)"},

@@ -30,6 +30,35 @@ TEST(Inventory, TakesFromTheLastStackOn) {
     EXPECT_EQ(chest, (Inventory{{}, {"stone", 1}, {}}));
 }
 
+TEST(Inventory, WornToolsKeepTheirBytes) {
+    const Inventory chest = {{"pick", 1, 700}, {}, {"stone", 99}};
+    const BlockEntityData bytes = encodeInventory(chest);
+    EXPECT_EQ(bytes[0], std::byte{2});
+    EXPECT_EQ(decodeInventory(bytes, 3).value(), chest);
+    for (std::size_t length = 0; length < bytes.size(); ++length)
+        EXPECT_FALSE(decodeSlots({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)}));
+    EXPECT_EQ(encodeInventory({{"pick", 1}})[0], std::byte{1}) << "programs without wear read it";
+}
+
+TEST(Inventory, MovesMergeSwapOrStay) {
+    ItemStack a{"stone", 60}, b{"stone", 50}, pick{"pick", 1, 3}, empty;
+    EXPECT_TRUE(moveItems(a, b, 100));
+    EXPECT_EQ(a.count, 11) << "49 found room";
+    EXPECT_EQ(b.count, 99);
+    EXPECT_FALSE(moveItems(a, b, 100)) << "full";
+    EXPECT_FALSE(moveItems(a, pick, 10)) << "a part of a stack does not change places";
+    EXPECT_TRUE(moveItems(a, pick, 11));
+    EXPECT_EQ(a, (ItemStack{"pick", 1, 3}));
+    EXPECT_EQ(pick, (ItemStack{"stone", 11}));
+    EXPECT_TRUE(moveItems(pick, empty, 10));
+    EXPECT_EQ(empty, (ItemStack{"stone", 10}));
+    ItemStack other{"pick", 1, 4};
+    EXPECT_TRUE(moveItems(a, other, 1)) << "other wear is another kind: they change places";
+    EXPECT_EQ(a.wear, 4);
+    EXPECT_FALSE(moveItems(a, a, 1));
+    EXPECT_EQ(addToStack(a, "pick", 1), 1) << "new items do not join worn ones";
+}
+
 TEST(Inventory, BytesComeBack) {
     const Inventory chest = {{"stone", 99}, {}, {std::string(kMaxItemName, 'x'), 1}};
     EXPECT_EQ(decodeInventory(encodeInventory(chest), 3).value(), chest);

@@ -200,6 +200,14 @@ def rules(page):
             game.look_down()
             game.hold(3)
             game.hold(1)
+            game.press("t")
+            game.type(page.quoted("/mode survival"))
+            game.press("Return")
+            game.wait_for(lambda: "torch" in (setting(page.home / ".local/share/terrane/goldrush.sqlite", "items") or ""),
+                          "no torches")
+            game.press("t")
+            game.type(page.quoted("/mode creative"))
+            game.press("Return")
             game.press("Escape")
         with page.step(3):
             page.write("scripts/gold.lua", "\n" + page.code("lua", 1), mode="a")

@@ -42,8 +42,8 @@ bool isGiven(const CLI::App& command, std::string_view name) {
 // True if options name a world or a task in it: the title is then skipped.
 bool namesWorld(const CLI::App& command) {
     constexpr std::string_view kNames[] = {
-        "world",   "seed", "generator",       "recreate",         "watch", "regenerate", "bookmark",
-        "no-save", "time", "store-generated", "collect-perf-data"};
+        "world",   "seed", "generator",       "recreate",          "watch", "regenerate", "bookmark",
+        "no-save", "time", "store-generated", "collect-perf-data", "mode"};
     return std::ranges::any_of(kNames, [&](std::string_view name) { return isGiven(command, name); });
 }
 
@@ -92,6 +92,7 @@ CommandEntry addPlay(CLI::App& app, std::shared_ptr<PlayHost> host) {
         "World to play in; created if needed (default: GENERATOR-SEED)");
     command->add_flag("--no-title", options->skipsTitle, "Skip the title");
     command->add_flag("--no-save", options->savesNothing, "Save nothing: changes are lost at the end");
+    addModeOption(*command, options->mode);
     auto* watch =
         command->add_flag("--watch", options->watches,
                           "Reload the content packs of the world when their files change; edits stay");
@@ -126,7 +127,7 @@ CommandEntry addPlay(CLI::App& app, std::shared_ptr<PlayHost> host) {
     command->get_option("--accept-packs")->needs("--connect");
     command->get_option("--connect")
         ->needs("--name")
-        ->excludes("--world", "--seed", "--generator", "--watch");
+        ->excludes("--world", "--seed", "--generator", "--watch", "--mode");
     CommandEntry entry{command, [options, command, host] { return play(*options, *command, *host); }};
     entry.showError = [options, host](const std::string& error) {
         showPlayError(*host, options->settings.language, error);

@@ -2,6 +2,7 @@
 #include <boost/asio/io_context.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/map_options.h"
@@ -12,6 +13,7 @@
 #include "apps/terrane/world_backup.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
+#include "terrane/game/item_commands.h"
 #include "terrane/io/open_session.h"
 #include "terrane/net/client/client_packs.h"
 #include "terrane/net/server/server_console.h"
@@ -71,12 +73,20 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
                                                    store::WorldSharing::Servers));
     game::SessionParts& parts = opened.parts;
     const auto content = TERRANE_TRY(net::serverContent(opened.content));
+    if (const auto mode = game::modeNamed(options.mode)) game::saveMode(*parts.store, *mode);
     // Clients generate unedited chunks themselves: the server needs them rarely, and regenerates them.
     parts.storesGenerated = false;
     auto records = TERRANE_TRY(net_postgres::openRecords(world, *parts.blocks));
     auto host = TERRANE_TRY(net::openServerHost(std::move(parts), std::move(records.records), options.server,
                                                 fmt::format("terrane {}", TERRANE_VERSION), content));
     const rules::Rules rules(*host.session, *opened.content.packs);
+    // Items in a world of several servers are not kept with its blocks.
+    std::optional<game::ItemCommands> itemCommands;
+    if (!host.state->sharing.shared)
+        itemCommands.emplace(*host.session,
+                             [&permissions = host.session->permissions](game::PlayerId player) {
+                                 return permissions.roleOf(player) == game::Role::Operator;
+                             });
     host.state->backup.files = files;
     host.state->backup.ofDatabase = [world, content = packsOfWorld(options.world)](
                                         const std::filesystem::path& save,

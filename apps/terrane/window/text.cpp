@@ -42,6 +42,8 @@ std::string refusalText(game::EditResult result, const Texts& tr) {
     if (result == game::EditResult::Protected) return tr("the lowest layer of the world cannot be broken");
     if (result == game::EditResult::Claimed) return tr("this place belongs to somebody else");
     if (result == game::EditResult::NotAllowed) return tr("guests cannot change anything");
+    if (result == game::EditResult::NoRoom) return tr("you have no room for what it gives");
+    if (result == game::EditResult::Creative) return tr("that works only in creative");
     return {};
 }
 

@@ -19,6 +19,7 @@ struct Texts {
     // For Dear ImGui and printf; has the same fields (%d, {}) as `english`.
     const char* operator()(const char* english) const { return content::text(language, english).data(); }
     std::string block(const world::BlockType& type) const { return content::blockName(language, type); }
+    std::string item(const std::string& name) const { return content::itemName(language, name); }
 };
 
 // Marks a text that is translated later as tr(kTexts[k]).

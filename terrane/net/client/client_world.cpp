@@ -60,7 +60,8 @@ ClientWorld::ClientWorld(game::Session& session, RemoteStore& store, Send send)
              sendEdit(command, changed);
          },
          [this](const game::BuildCommand& command) { sendBuild(command.change); },
-         [this](game::PlayerId, game::HistoryWay way) { sendTakeBack(way); }});
+         [this](game::PlayerId, game::HistoryWay way) { sendTakeBack(way); },
+         [this](const game::ItemAction& action) { sendAction(action); }});
 }
 
 ClientWorld::~ClientWorld() {
@@ -98,6 +99,7 @@ void ClientWorld::onMessage(const ServerMessage& message) {
                        session_.permissions.roles[game::kLocalPlayer] = changed.role;
                    },
                    [this](const PlayerList& list) { playerList_ = list; },
+                   [this](const Items& items) { onItems(items); },
                    [](const OfConnection auto&) {},  // ClientLink handles them
                },
                message);
@@ -120,6 +122,7 @@ void ClientWorld::onJoined(const Joined& joined) {
     toldView_.reset();
     isViewComplete_ = false;
     session_.permissions.roles[game::kLocalPlayer] = joined.role;
+    session_.setItems(game::kLocalPlayer, {});  // the first slot is selected on both sides
 }
 
 void ClientWorld::onChunkEdits(const ChunkEdits& edits) {
@@ -273,6 +276,19 @@ void ClientWorld::sendTakeBack(game::HistoryWay way) {
     send_(TakeBack{number, isRedo});
 }
 
+// Without a connection nothing is sent; the server tells what became of the items.
+void ClientWorld::sendAction(const game::ItemAction& action) {
+    if (!isConnected_) return;
+    const CommandNumber number = ++lastCommand_;
+    waiting_.push_back({number, WaitingDecision::Kind::Item});
+    send_(ItemCommand{number, action});
+}
+
+void ClientWorld::onItems(const Items& items) {
+    const std::size_t selected = session_.itemsOf(game::kLocalPlayer).selected;
+    session_.setItems(game::kLocalPlayer, {items.mode, items.slots, selected});
+}
+
 void ClientWorld::say(const std::string& text) {
     send_(Say{plainText(text, kMaxChatBytes)});
 }
@@ -295,8 +311,9 @@ void ClientWorld::onDone(const Done& done) {
                             {static_cast<Taken>(done.result), done.changed, done.kept}});
     const auto result = static_cast<game::EditResult>(done.result);
     const bool isRefused = result != game::EditResult::Applied && result != game::EditResult::Unchanged;
-    if (kind == Kind::Edit && isRefused &&
-        done.result <= static_cast<std::uint8_t>(game::EditResult::Claimed))
+    // The reason of Refused is a line of chat; an item that cannot be moved says nothing.
+    const bool isKnown = done.result < static_cast<std::uint8_t>(game::EditResult::Count);
+    if (kind == Kind::Edit && isRefused && isKnown && result != game::EditResult::Refused)
         decided_.push_back(result);
 }
 

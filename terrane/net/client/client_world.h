@@ -111,11 +111,13 @@ class ClientWorld {
   private:
     struct WaitingDecision {
         CommandNumber number = 0;
-        enum class Kind : std::uint8_t { Edit, Build, Undo, Redo } kind = Kind::Edit;
+        enum class Kind : std::uint8_t { Edit, Build, Undo, Redo, Item } kind = Kind::Edit;
     };
     void sendEdit(const game::EditCommand& command, std::span<const game::ChangedBlock> changed);
     void sendBuild(const game::BuildChange& change);
     void sendTakeBack(game::HistoryWay way);
+    void sendAction(const game::ItemAction& action);
+    void onItems(const Items& items);
     void onJoined(const Joined& joined);
     void onChunkEdits(const ChunkEdits& edits);
     void onBlocksChanged(const BlocksChanged& changed);

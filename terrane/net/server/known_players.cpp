@@ -146,6 +146,14 @@ void KnownPlayers::setBan(game::PlayerId id, const std::string& reason) {
     records_->changePlayer(id, {.ban = reason});
 }
 
+base::Result<std::string> KnownPlayers::items(game::PlayerId id) {
+    return records_->text(itemsTextOf(id));
+}
+
+void KnownPlayers::setItems(game::PlayerId id, const std::string& text) {
+    records_->setText(itemsTextOf(id), text);
+}
+
 base::Result<void> KnownPlayers::addClaim(const game::Claim& claim) {
     TERRANE_TRY(claims_.add(claim));
     records_->addClaim(claim);

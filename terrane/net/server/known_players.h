@@ -52,6 +52,9 @@ class KnownPlayers {
     void setRole(game::PlayerId id, game::Role role);
     void setPose(game::PlayerId id, const world::Pose& pose);
     void setBan(game::PlayerId id, const std::string& reason);
+    // The player's items as a text (game::textOf()); empty: none. Reads what is durable.
+    [[nodiscard]] base::Result<std::string> items(game::PlayerId id);
+    void setItems(game::PlayerId id, const std::string& text);
 
     const game::Claims& claims() const { return claims_; }
     [[nodiscard]] base::Result<void> addClaim(const game::Claim& claim);

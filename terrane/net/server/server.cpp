@@ -154,6 +154,11 @@ void listen(ServerState& server) {
         const game::Author author{event.author.player, packIdOf(server, event.author.pack)};
         logChanges(server.history, server.sharing, author, server.clients.now, event.blocks);
     }));
+    keep(events.items.add([&server](const game::ItemsChanged& event) {
+        server.clients.known.setItems(event.player, game::textOf(server.session.itemsOf(event.player)));
+        if (ServerClient* client = playingClient(server.clients, event.player))
+            send(*client, itemsOf(server.session, event.player));
+    }));
     keep(events.said.add([&clients = server.clients](const game::Said& line) {
         if (line.to == game::kNoPlayer) return broadcastChat(clients, {}, line.text);
         if (ServerClient* client = playingClient(clients, line.to)) say(*client, line.text);
@@ -166,7 +171,13 @@ base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
                                                       const ServerSettings& settings) {
     auto server = std::make_unique<ServerState>(parts, settings);
     game::Session& session = parts.session;
+    session.mode = game::loadMode(session.store());
+    if (parts.records.shared() && session.mode == game::Mode::Survival)
+        return base::fail(base::ErrorCode::BadInput,
+                          "survival: the world is shared between servers in PostgreSQL, where items are not "
+                          "kept with the blocks; serve it from a file, or with --mode creative");
     listen(*server);
+    session.together = [&records = parts.records] { return records.together(); };
     TERRANE_TRY(checkWorldOf(parts.records, session.store().identity()));
     startStamps(server->history);
     const bool isRestored = TERRANE_TRY(restoreEdits(server->history, session));

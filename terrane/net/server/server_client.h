@@ -40,7 +40,7 @@ struct Build {
     game::BuildChange change;
 };
 struct WaitingCommand {
-    std::variant<Edit, Build, TakeBack> command;
+    std::variant<Edit, Build, TakeBack, ItemCommand> command;
     std::uint64_t since = 0;  // tick number: time in which the server stalls does not count
 };
 // A decision that is sent once its edits are durable.

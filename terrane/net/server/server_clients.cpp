@@ -39,6 +39,10 @@ void say(ServerClient& client, const std::string& text) {
     for (const std::string_view line : linesOf(text)) send(client, Said{{}, plainText(line, kMaxChatBytes)});
 }
 
+Items itemsOf(const game::Session& session, game::PlayerId player) {
+    return {session.modeOf(player), session.itemsOf(player).slots};
+}
+
 Clock clockOf(const game::DayClock& clock) {
     return {clock.timeDay, 1 / (60 * clock.dayMinutes)};
 }

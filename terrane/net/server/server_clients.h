@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "terrane/game/session.h"
 #include "terrane/net/server/server_state.h"
 
 namespace terrane::net {
@@ -17,6 +18,8 @@ void sendEncoded(ServerClient& client, ByteView message);
 void say(ServerClient& client, const std::string& text);
 // The time of day, as sent to clients.
 Clock clockOf(const game::DayClock& clock);
+// The mode and the items of a player, likewise.
+Items itemsOf(const game::Session& session, game::PlayerId player);
 // Sets the time of day on this server and tells its players.
 void setTimeHere(ServerClients& clients, game::DayClock& clock, double timeDay);
 // Sends chat lines to the players of this server, or of all servers. An empty name means the server.

@@ -7,6 +7,7 @@
 #include "terrane/store/chunks/structure_file.h"
 #include "terrane/world/blocks/inventory.h"
 #include "terrane/world/blocks/sign.h"
+#include "terrane/world/items/item_table.h"
 
 namespace terrane::net {
 namespace {
@@ -79,11 +80,11 @@ bool isKnown(const game::Session& session, world::BlockId id) {
     return id < session.blocks().types().size();
 }
 
-// Whether all items are blocks of the server, or were there before: other names are only a load.
+// Whether all items are known to the server, or were there before: other names are only a load.
 bool hasKnownItems(const world::BlockRegistry& blocks, const world::Inventory& items,
                    const world::Inventory& former) {
     return std::ranges::all_of(items, [&](const world::ItemStack& stack) {
-        return stack.count == 0 || blocks.find(stack.item) ||
+        return stack.count == 0 || blocks.items().find(stack.item) ||
                std::ranges::count(former, stack.item, &world::ItemStack::item) > 0;
     });
 }
@@ -168,6 +169,24 @@ Done run(game::Session& session, ServerClient& client, const TakeBack& takeBack)
             static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.skipped)};
 }
 
+// The block that an action with items needs.
+std::optional<world::BlockPos> blockOf(const game::ItemAction& action) {
+    if (const auto* move = std::get_if<game::MoveStack>(&action))
+        return move->from.block ? move->from.block : move->to.block;
+    const auto* craft = std::get_if<game::CraftItems>(&action);
+    return craft ? craft->workbench : std::nullopt;
+}
+
+Done run(game::Session& session, const ServerClient& client, const ItemCommand& command) {
+    game::EditResult result = game::EditResult::BadData;
+    const auto block = blockOf(command.action);
+    // An item's name and count take at most 260 bytes in the data of a chest.
+    constexpr std::size_t kMostAdded = 260;
+    if (!block || hasRoom(session.world(), {*block, *block}, kMostAdded))
+        result = session.act(client.player, command.action);
+    return {command.number, static_cast<std::uint8_t>(result), 0, 0};
+}
+
 // Requests the chunks of a command. Returns whether all are loaded, or the session will refuse it anyway.
 bool isReady(game::Session& session, const ServerClient& client, const WaitingCommand& waiting,
              std::size_t maxFillBlocks) {
@@ -191,13 +210,17 @@ bool isReady(game::Session& session, const ServerClient& client, const WaitingCo
                     all &= session.pipeline().maybeLoadChunkAt(pos) != nullptr;
                 return all;
             },
+            [&](const ItemCommand& command) {
+                const auto block = blockOf(command.action);
+                return !block || isBoxReady({*block, *block});
+            },
         },
         waiting.command);
 }
 
 // Result if another server was first: Conflict for an edit, NotLoaded for others, which may be tried again.
 std::uint8_t refusedResult(const WaitingCommand& command) {
-    if (std::holds_alternative<Edit>(command.command))
+    if (std::holds_alternative<Edit>(command.command) || std::holds_alternative<ItemCommand>(command.command))
         return static_cast<std::uint8_t>(game::EditResult::Conflict);
     if (std::holds_alternative<Build>(command.command))
         return static_cast<std::uint8_t>(game::BuildOutcome::Result::NotLoaded);
@@ -219,7 +242,9 @@ void runOf(ServerClient& client, const ServerClients& clients, game::Session& se
         const WaitingCommand& next = client.commands.front();
         const bool waitedLong = clients.tick - next.since > kMaxWaitTicks;
         if (!waitedLong && !isReady(session, client, next, clients.settings.maxFillBlocks)) return;
-        if (std::holds_alternative<Edit>(next.command) && !client.buckets.edits.take(1, clients.now)) return;
+        const bool isEdit =
+            std::holds_alternative<Edit>(next.command) || std::holds_alternative<ItemCommand>(next.command);
+        if (isEdit && !client.buckets.edits.take(1, clients.now)) return;
         // The number of blocks is known only afterwards.
         if (std::holds_alternative<TakeBack>(next.command) && !client.buckets.blocks.take(1, clients.now))
             return;

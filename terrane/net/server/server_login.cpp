@@ -235,6 +235,20 @@ std::optional<world::Pose> lastPose(const ServerClients& clients, const KnownPla
     return elsewhere == clients.elsewhere.end() ? player.pose : poseOf(elsewhere->second.at.pose);
 }
 
+// Reads the items of a player once: later ones are in the session. Other servers may have changed them.
+void loadItems(ServerClients& clients, game::Session& session, const KnownPlayer& player) {
+    if (session.knowsItems(player.id) && !clients.shared)
+        return (void)session.act(player.id, game::SelectSlot{0});
+    game::PlayerItems items;
+    const auto text = clients.known.items(player.id);
+    auto read =
+        text && !text->empty() ? game::parsePlayerItems(*text) : base::Result<game::PlayerItems>(items);
+    if (!text || !read)
+        base::logError("the items of {}: {}", player.name, (text ? read.error() : text.error()).message);
+    if (text && read) items = std::move(*read);
+    session.setItems(player.id, std::move(items));
+}
+
 void join(ServerClients& clients, ServerClient& client, game::Session& session, const world::Pose& spawn,
           std::span<const OtherServer> servers) {
     const ServerSettings& settings = clients.settings;
@@ -262,6 +276,8 @@ void join(ServerClients& clients, ServerClient& client, game::Session& session, 
     send(client,
          Joined{player.id, player.role, static_cast<std::uint8_t>(settings.maxViewDistance), client.pose});
     send(client, clockOf(session.clock));
+    loadItems(clients, session, player);
+    send(client, itemsOf(session, player.id));
     base::logInfo("{} joined from {}", client.name, client.address.shown);
     broadcastChat(clients, {}, client.name + " joined");
     if (!servers.empty()) send(client, otherServers(servers));

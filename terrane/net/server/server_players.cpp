@@ -247,6 +247,7 @@ void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage me
                        enqueue(buildFrom(place, client.buckets, session.blocks(), clients.now));
                    },
                    [&](const TakeBack& takeBack) { enqueue(takeBack); },
+                   [&](const ItemCommand& command) { enqueue(command); },
                    [&](const Say& text) { onSay(server, client, text); },
                    [&](const AskPlayers&) { onAskPlayers(clients, client); },
                    [&](const Pong& pong) {

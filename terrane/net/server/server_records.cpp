@@ -119,6 +119,8 @@ base::Result<RecordsCopied> copyRecords(ReadableRecords& from, ServerRecords& to
         const std::string name = placesTextOf(player.id);
         const auto places = TERRANE_TRY(from.text(name));
         if (!places.empty()) to.setText(name, places);
+        const auto items = TERRANE_TRY(from.text(itemsTextOf(player.id)));
+        if (!items.empty()) to.setText(itemsTextOf(player.id), items);
     }
     TERRANE_TRY(copyEdits(from, to, begun->newest));
     to.setSavedEdit(ends->saved);

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,6 +46,11 @@ inline constexpr const char* kPasswordText = "password";
 // Name of the text with seed and generator of the world; empty before a server opened it.
 inline constexpr const char* kWorldText = "world";
 
+// Name of the text with a player's items (game::textOf()); empty: none.
+inline std::string itemsTextOf(game::PlayerId player) {
+    return "items." + std::to_string(player);
+}
+
 class SharedWorld;  // shared_world.h
 
 // Read access to the durable state. Functions block; invalid rows are an error.
@@ -73,6 +79,9 @@ class ServerRecords : public ReadableRecords {
     // Appends the edits of one command; returns the number of the write.
     virtual std::uint64_t append(const std::vector<LoggedEdit>& edits) = 0;
     virtual void setSavedEdit(std::int64_t number) = 0;
+    // Until the result is released, no queued write begins: the writes of this time are one transaction. Not
+    // to be held for long, and flush() not to be called meanwhile. Null if the records are shared.
+    [[nodiscard]] virtual std::shared_ptr<void> together() { return nullptr; }
 
     // All writes up to this number survive the end of the program and a power failure. Any thread.
     virtual std::uint64_t durable() const = 0;

@@ -145,6 +145,15 @@ std::uint64_t ServerFile::write(Write write) {
     return ++queued_;
 }
 
+std::shared_ptr<void> ServerFile::hold() {
+    const std::lock_guard lock(mutex_);
+    ++holds_;
+    return {nullptr, [this](std::nullptr_t) {
+                const std::lock_guard released(mutex_);
+                if (--holds_ == 0) wake_.notify_all();
+            }};
+}
+
 std::uint64_t ServerFile::durable() const {
     const std::lock_guard lock(mutex_);
     return durable_;
@@ -215,7 +224,9 @@ void ServerFile::run() {
     std::vector<Write> writes;
     base::FailureReport report(base::kQuietAfterFailure);
     std::unique_lock lock(mutex_);
-    const auto isDue = [&] { return isEnding_ || !waiting_.empty() || !writes.empty() || !moments_.empty(); };
+    const auto isDue = [&] {
+        return isEnding_ || (holds_ == 0 && (!waiting_.empty() || !writes.empty() || !moments_.empty()));
+    };
     const auto reportIfEnded = [&] {
         if (report.hasEnded(std::chrono::steady_clock::now()))
             base::logInfo("{}: it works again", writer_.path());

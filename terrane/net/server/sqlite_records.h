@@ -44,6 +44,8 @@ class ServerFile {
     using Write = std::function<base::Result<void>(store::Database&)>;
     // Queues a write and returns its number; writes run in order. Does not block.
     std::uint64_t write(Write write);
+    // See ServerRecords::together().
+    std::shared_ptr<void> hold();
     // All writes up to this number survive the end of the program and a power failure. Any thread.
     std::uint64_t durable() const;
     // Why the last attempt to write failed; empty if it succeeded. Any thread.
@@ -89,6 +91,7 @@ class ServerFile {
     std::deque<Moment> moments_;
     std::uint64_t queued_ = 0, durable_ = 0, attempts_ = 0;
     std::string problem_;
+    int holds_ = 0;  // results of hold() that are not released
     bool isEnding_ = false;
     std::thread thread_;
 };
@@ -128,6 +131,7 @@ class SqliteRecords : public ServerRecords {
     void setText(const std::string& name, const std::string& text) override;
     std::uint64_t append(const std::vector<LoggedEdit>& edits) override;
     void setSavedEdit(std::int64_t number) override;
+    [[nodiscard]] std::shared_ptr<void> together() override { return file_->hold(); }
 
     std::uint64_t durable() const override { return file_->durable(); }
     std::string problem() const override { return file_->problem(); }

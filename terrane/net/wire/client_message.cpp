@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kClientNames[] = {"Hello", "Login",      "Proof", "View",     "Move",
                                              "Edit",  "Fill",       "Place", "TakeBack", "Say",
-                                             "Pong",  "AskPlayers", "Leave", "AskPack"};
+                                             "Pong",  "AskPlayers", "Leave", "AskPack",  "ItemCommand"};
 
 // Kinds of changes to a block, in the order of the encoding.
 enum class ChangeKind : std::uint8_t { SetBlock, SetEntityData, UseBlock, Count };
@@ -136,6 +136,39 @@ void describe(auto&, Of<Leave> auto&) {}
 void describe(auto& wire, Of<AskPack> auto& m) {
     wire.fixed(m.number);
     wire.fixed(m.offset);
+}
+
+void describePlace(auto& wire, Of<game::SlotPlace> auto& place) {
+    wire.optional(place.block, [&](auto& pos) { describePos(wire, pos); });
+    wire.number(place.slot);
+}
+
+void describeAction(auto& wire, Of<game::MoveStack> auto& move) {
+    describePlace(wire, move.from);
+    describePlace(wire, move.to);
+    wire.number(move.count);
+}
+
+void describeAction(auto& wire, Of<game::CraftItems> auto& craft) {
+    wire.optional(craft.workbench, [&](auto& pos) { describePos(wire, pos); });
+}
+
+void describeAction(auto&, Of<game::UseItem> auto&) {}
+
+void describeAction(auto& wire, Of<game::SelectSlot> auto& select) {
+    wire.fixed(select.slot);
+}
+
+template <class Wire>
+void describe(Wire& wire, Of<ItemCommand> auto& m) {
+    wire.number(m.number);
+    auto kind = static_cast<std::uint8_t>(m.action.index());
+    wire.fixed(kind);
+    constexpr std::size_t kKinds = std::variant_size_v<game::ItemAction>;
+    wire.require(kind < kKinds);
+    if constexpr (Wire::kReads)
+        if (kind < kKinds) emplaceAt(m.action, kind, std::make_index_sequence<kKinds>());
+    std::visit([&](auto& action) { describeAction(wire, action); }, m.action);
 }
 
 constexpr auto kDescribeClient = [](auto& wire, auto& message) { describe(wire, message); };

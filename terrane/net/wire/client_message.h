@@ -13,6 +13,7 @@
 #include "terrane/base/match.h"
 #include "terrane/base/result.h"
 #include "terrane/game/build_command.h"
+#include "terrane/game/player_items.h"
 #include "terrane/net/wire/message_codec.h"
 #include "terrane/net/wire/security.h"
 #include "terrane/net/wire/wire.h"
@@ -83,9 +84,14 @@ struct AskPack {
     std::uint8_t number = 0;
     std::uint32_t offset = 0;
 };
+// An action with the player's items, answered by Done; Items tells what became of them.
+struct ItemCommand {
+    CommandNumber number = 0;
+    game::ItemAction action;
+};
 
 using ClientMessage = std::variant<Hello, Login, Proof, View, Move, Edit, Fill, Place, TakeBack, Say, Pong,
-                                   AskPlayers, Leave, AskPack>;
+                                   AskPlayers, Leave, AskPack, ItemCommand>;
 
 // Messages of a client before it plays, and while it plays.
 template <class Message>

@@ -20,7 +20,7 @@ namespace terrane::net {
 
 // Definitions shared by client and server messages: limits, keys, numbers. Plain values.
 constexpr std::uint32_t kMagic = 0x4E524554;  // "TERN"
-constexpr std::uint16_t kProtocolVersion = 3;
+constexpr std::uint16_t kProtocolVersion = 4;
 
 constexpr std::size_t kMaxNameBytes = 24;  // of a player or a claim
 constexpr std::size_t kMaxPasswordBytes = 128;

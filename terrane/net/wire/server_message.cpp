@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kServerNames[] = {
     "Greeting", "WorldOffer", "Joined",      "Refused", "ChunkEdits", "BlocksChanged", "ViewComplete",
     "Done",     "Appears",    "Disappears",  "Poses",   "Said",       "Clock",         "Corrected",
-    "Ping",     "PlayerList", "RoleChanged", "Servers", "PackPart"};
+    "Ping",     "PlayerList", "RoleChanged", "Servers", "PackPart",   "Items"};
 
 template <class Wire, Of<double> T>
 void describeDouble(Wire& wire, T& value) {
@@ -168,6 +168,19 @@ void describe(auto& wire, Of<PackPart> auto& m) {
     wire.fixed(m.number);
     wire.fixed(m.offset);
     wire.data(m.data, kMaxPackPart);
+}
+
+void describe(auto& wire, Of<Items> auto& m) {
+    wire.choice(m.mode, game::Mode::Count);
+    wire.list(m.slots, game::kPlayerSlots, [&](auto& stack) {
+        wire.number(stack.count);
+        wire.require(stack.count <= world::kMaxStack);
+        if (stack.count == 0) return;
+        wire.number(stack.wear);
+        wire.text(stack.item, world::kMaxItemName);
+        wire.require(!stack.item.empty());
+    });
+    wire.require(m.slots.size() == game::kPlayerSlots);
 }
 
 constexpr auto kDescribeServer = [](auto& wire, auto& message) { describe(wire, message); };

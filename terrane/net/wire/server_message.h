@@ -12,6 +12,7 @@
 #include "terrane/base/match.h"
 #include "terrane/base/result.h"
 #include "terrane/game/permissions.h"
+#include "terrane/game/player_items.h"
 #include "terrane/net/server/known_players.h"
 #include "terrane/net/wire/chunk_difference.h"
 #include "terrane/net/wire/message_codec.h"
@@ -128,9 +129,15 @@ struct PackPart {
     Bytes data;  // at most kMaxPackPart
 };
 
+// The mode and the items of the player from now on, in game::kPlayerSlots slots.
+struct Items {
+    game::Mode mode = game::Mode::Creative;
+    world::Inventory slots;
+};
+
 using ServerMessage = std::variant<Greeting, WorldOffer, Joined, Refused, ChunkEdits, BlocksChanged,
                                    ViewComplete, Done, Appears, Disappears, Poses, Said, Clock, Corrected,
-                                   Ping, PlayerList, RoleChanged, Servers, PackPart>;
+                                   Ping, PlayerList, RoleChanged, Servers, PackPart, Items>;
 
 // Messages about the connection, and about the world and who plays in it.
 template <class Message>

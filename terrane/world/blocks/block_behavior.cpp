@@ -91,6 +91,10 @@ BlockBehavior container() {
             }};
 }
 
+BlockBehavior workbench() {
+    return {.name = "workbench"};
+}
+
 template <class T>
 std::shared_ptr<const T> findNamed(const std::vector<std::shared_ptr<const T>>& list, std::string_view name) {
     const auto found = std::ranges::find(list, name, [](const auto& entry) { return entry->name; });
@@ -139,7 +143,7 @@ bool hasBehavior(const BlockType& type, std::string_view name) {
 const BehaviorTable& builtInBehaviors() {
     static const BehaviorTable table = [] {
         BehaviorTable made;
-        for (BlockBehavior (*make)() : {plant, crop, falling, container, flows}) made.add(make());
+        for (BlockBehavior (*make)() : {plant, crop, falling, container, workbench, flows}) made.add(make());
         for (BlockBehavior& behavior : shapeBehaviors()) made.add(std::move(behavior));
         made.add(signBehavior());
         for (BehaviorTemplate& behavior : builtInTemplates()) made.addTemplate(std::move(behavior));

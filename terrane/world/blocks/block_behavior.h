@@ -72,6 +72,7 @@ class BehaviorTable {
 // falling    falls through air and liquids when it is placed or when the block below changes
 // flows      makes a liquid flow (liquid_flow.h)
 // container  holds BlockType::slots stacks of items
+// workbench  players craft on it in a grid of 3×3
 // and those of block_behavior.h; with parameters those of behavior_template.h
 const BehaviorTable& builtInBehaviors();
 

@@ -11,6 +11,7 @@
 
 #include "terrane/base/text.h"
 #include "terrane/world/blocks/content_table.h"
+#include "terrane/world/blocks/inventory.h"
 
 namespace terrane::world {
 
@@ -323,11 +324,12 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
 constexpr std::array<EnumName<Wrap>, 3> kWraps{
     {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
 
-constexpr std::array<std::string_view, 28> kBlockKeys{
+constexpr std::array<std::string_view, 32> kBlockKeys{
     "name",        "like",       "shape",        "texture",     "textures",    "alpha",    "animation",
     "two_sided",   "wrap",       "sharp",        "inner_faces", "opacity",     "emission", "collides",
     "selection",   "selectable", "needs_ground", "generated",   "growth",      "slots",    "surface_height",
-    "wave_height", "behaviors",  "tint",         "climbable",   "replaceable", "group",    "sound"};
+    "wave_height", "behaviors",  "tint",         "climbable",   "replaceable", "group",    "sound",
+    "hardness",    "tool",       "tool_level",   "drops"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
@@ -480,6 +482,60 @@ void readShapeName(ContentTable& table, BlockDescription& block, std::span<const
     table.expected(*node, "shape", "one of " + expected);
 }
 
+struct MaterialHardness {
+    SoundMaterial sound;
+    double seconds;
+    ToolKind tool;
+    int toolLevel;
+};
+// How hard blocks are that say nothing about it, by what they sound like.
+constexpr MaterialHardness kHardness[] = {
+    {SoundMaterial::Stone, 6, ToolKind::Pick, 1},    {SoundMaterial::Metal, 8, ToolKind::Pick, 1},
+    {SoundMaterial::Wood, 2.5, ToolKind::Axe, 0},    {SoundMaterial::Earth, 0.8, ToolKind::Shovel, 0},
+    {SoundMaterial::Sand, 0.7, ToolKind::Shovel, 0}, {SoundMaterial::Grass, 0.4, ToolKind::None, 0},
+    {SoundMaterial::Snow, 0.4, ToolKind::Shovel, 0}, {SoundMaterial::Glass, 0.5, ToolKind::None, 0},
+    {SoundMaterial::Wool, 0.8, ToolKind::None, 0}};
+
+bool isPlantShape(Shape shape) {
+    return shape == Shape::Cross || shape == Shape::Hash;
+}
+
+void readDrop(ContentTable& table, Drop& drop) {
+    const toml::node* value = table.own("drops");  // ore like stone gives no cobble
+    if (!value) return;
+    if (const toml::table* several = value->as_table()) {
+        ContentTable inner = table.inner(*several);
+        inner.rejectUnknown(std::initializer_list<std::string_view>{"item", "count"}, "drops.");
+        if (const toml::node* item = inner.own("item")) drop.item = item->value_or(std::string());
+        if (const toml::node* count = inner.own("count"))
+            drop.count = table.numberOf(*count, "drops.count", 0, kMaxStack);
+        return;
+    }
+    const auto name = value->value_exact<std::string>();
+    if (!name) return table.expected(*value, "drops", "the name of an item, \"none\", or { item, count }");
+    drop = *name == "none" ? Drop{{}, 0} : Drop{*name, 1};
+}
+
+// Survival: how long breaking the block takes, and what it gives.
+void readBreaking(ContentTable& table, BlockDescription& block) {
+    BlockType& type = block.type;
+    for (const MaterialHardness& material : kHardness) {
+        if (material.sound != type.sound || isPlantShape(type.shape)) continue;
+        type.hardness = material.seconds;
+        type.tool = material.tool;
+        type.toolLevel = material.toolLevel;
+    }
+    if (const toml::node* value = table.node("hardness"))
+        type.hardness = table.realOf(*value, "hardness", 0, kMaxHardness);
+    if (const toml::node* value = table.node("tool")) {
+        type.tool = table.enumOf(*value, "tool", kToolKinds);
+        if (type.tool == ToolKind::None) type.toolLevel = 0;
+    }
+    if (const toml::node* value = table.node("tool_level"))
+        type.toolLevel = table.numberOf(*value, "tool_level", 0, kMaxToolLevel);
+    readDrop(table, type.drop);
+}
+
 BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
                            std::span<const ShapePtr> shapes) {
     BlockDescription block;
@@ -504,6 +560,7 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
     const toml::node* group = table.node("group");
     block.type.group = group ? table.nameOf(*group, "group") : "other";
     block.type.sound = readSound(table, block.type.shape);
+    readBreaking(table, block);
     readGrowth(table, block);
     if (const toml::node* slots = table.node("slots"))
         block.type.slots = table.numberOf(*slots, "slots", 0, kMaxSlots);

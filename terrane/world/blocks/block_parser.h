@@ -22,6 +22,15 @@ namespace terrane::world {
 constexpr std::size_t kMaxDescribedBlocks = 65536 - 2;
 constexpr std::size_t kMaxGrowthStages = 15;
 constexpr int kMaxSlots = 256;
+constexpr double kMaxHardness = 60;  // seconds
+constexpr int kMaxToolLevel = 9;
+
+// Names of kinds of tools in content files.
+constexpr std::array<EnumName<ToolKind>, 5> kToolKinds{{{"none", ToolKind::None},
+                                                        {"pick", ToolKind::Pick},
+                                                        {"axe", ToolKind::Axe},
+                                                        {"shovel", ToolKind::Shovel},
+                                                        {"sword", ToolKind::Sword}}};
 
 // The blocks and shapes of a file in its order; their names are unique.
 struct BlockFile {

@@ -12,6 +12,7 @@
 
 #include "terrane/base/text.h"
 #include "terrane/world/blocks/block_parser.h"
+#include "terrane/world/items/item_table.h"
 
 namespace terrane::world {
 
@@ -202,7 +203,8 @@ base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::str
 }
 
 base::Result<BlockRegistry> BlockRegistry::fromDescriptions(std::vector<BlockDescription> blocks,
-                                                            std::string_view name) {
+                                                            std::string_view name,
+                                                            std::span<const ItemFile> items) {
     if (blocks.size() > kMaxDescribedBlocks)
         return base::fail(base::ErrorCode::BadInput, "{}: expected at most {} blocks, got {}", name,
                           kMaxDescribedBlocks, blocks.size());
@@ -245,6 +247,7 @@ base::Result<BlockRegistry> BlockRegistry::fromDescriptions(std::vector<BlockDes
     registry.materials_ = materials.takeMaterials();
     registry.textures_ = materials.takeTextures();
     for (const BlockType& type : registry.types_) registry.byName_.emplace(type.name, type.id);
+    registry.items_ = std::make_shared<const ItemTable>(registry.types_, registry.missing_, items);
     return registry;
 }
 

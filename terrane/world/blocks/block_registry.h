@@ -1,4 +1,4 @@
-// All block types of a session, read from content files. It is immutable; shared by all threads.
+// All block types and items of a session, read from content files. It is immutable; shared by all threads.
 #pragma once
 
 #include <map>
@@ -44,6 +44,8 @@ class ModelTable {
 };
 
 struct BlockDescription;  // block_description.h
+struct ItemFile;          // items/item_table.h
+class ItemTable;
 
 class BlockRegistry {
   public:
@@ -55,14 +57,17 @@ class BlockRegistry {
 
     // Creates a registry from descriptions, of several files or made by a program. Names are unique and none
     // of "air", "missing"; textures and blocks of behaviors have the registry's names. Errors that belong to
-    // no block begin with `name`.
+    // no block begin with `name`. `items`: those that are no blocks, and recipes.
     [[nodiscard]] static base::Result<BlockRegistry> fromDescriptions(std::vector<BlockDescription> blocks,
-                                                                      std::string_view name);
+                                                                      std::string_view name,
+                                                                      std::span<const ItemFile> items = {});
 
     std::span<const BlockType> types() const { return types_; }  // index is the id
     const BlockType& type(BlockId id) const { return types_[id < types_.size() ? id : missing_]; }
     const BlockType* find(std::string_view name) const;  // null if there is none
     BlockId missing() const { return missing_; }         // stands for unknown blocks
+
+    const ItemTable& items() const { return *items_; }
 
     // Returns the same blocks with fewer faces, for meshes of far tiles: cubes with holes are closed and not
     // animated. Ids and textures are the same.
@@ -79,6 +84,7 @@ class BlockRegistry {
     std::vector<std::string> textures_;
     std::vector<shared::ShapeFace> modelFaces_;
     std::unordered_map<std::string, BlockId> byName_;
+    std::shared_ptr<const ItemTable> items_;
     BlockId missing_ = 0;
 };
 

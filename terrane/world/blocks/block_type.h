@@ -74,6 +74,15 @@ enum class Filtering : std::uint8_t {
     Nearest,  // as with the option off
 };
 
+// Kinds of tools that break blocks faster.
+enum class ToolKind : std::uint8_t { None, Pick, Axe, Shovel, Sword };
+
+// What a block gives in survival when it is broken.
+struct Drop {
+    std::string item;  // empty: the block itself
+    int count = 1;     // 0: nothing
+};
+
 // The top of a liquid under anything but the same liquid. Integers, so that equal ones compare equal.
 struct LiquidSurface {
     // In the cell; shared::kSurfaceUnits a block.
@@ -125,6 +134,12 @@ struct BlockType {
     std::vector<std::shared_ptr<const BlockBehavior>> behaviors;
     SoundMaterial sound = SoundMaterial::None;
     int slots = 0;  // of the behavior container: stacks of items it holds
+    // Of survival (terrane/world/items). The seconds that it takes to break the block by hand, the tool that
+    // is faster, and the least level of this tool that makes the block drop something.
+    double hardness = 0;
+    ToolKind tool = ToolKind::None;
+    int toolLevel = 0;
+    Drop drop = {};
 };
 
 }  // namespace terrane::world

@@ -11,8 +11,8 @@
 namespace terrane::world {
 namespace {
 
-constexpr std::byte kVersion{1};
-constexpr std::size_t kHeaderBytes = 3, kSlotBytes = 3;
+constexpr std::byte kVersion{1}, kVersionWithWear{2};
+constexpr std::size_t kHeaderBytes = 3, kSlotBytes = 3, kWearBytes = 2;
 
 void append16(BlockEntityData& out, std::size_t value) {
     out.push_back(static_cast<std::byte>(value & 255));
@@ -25,10 +25,10 @@ std::uint16_t read16(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-int addToStack(ItemStack& stack, std::string_view item, int count) {
+int addToStack(ItemStack& stack, std::string_view item, int count, int limit) {
     base::require(count >= 0, "addToStack: a negative count");
-    if (stack.count > 0 && stack.item != item) return count;
-    const int moved = std::min(count, kMaxStack - stack.count);
+    if (stack.count > 0 && (stack.item != item || stack.wear != 0)) return count;
+    const int moved = std::min(count, limit - stack.count);
     if (moved > 0) stack = {std::string(item), static_cast<std::uint16_t>(stack.count + moved)};
     return count - std::max(moved, 0);
 }
@@ -41,13 +41,36 @@ int takeFromStack(ItemStack& stack, int count) {
     return moved;
 }
 
-int addItems(Inventory& inventory, std::string_view item, int count) {
+int countItems(const Inventory& inventory, std::string_view item) {
+    int count = 0;
+    for (const ItemStack& stack : inventory)
+        if (stack.item == item) count += stack.count;
+    return count;
+}
+
+bool moveItems(ItemStack& from, ItemStack& to, int count, int limit) {
+    base::require(count >= 0, "moveItems: a negative count");
+    if (&from == &to || from.count == 0 || count == 0) return false;
+    const bool isSame = from.item == to.item && from.wear == to.wear;
+    if (to.count > 0 && !isSame) {
+        if (count < from.count) return false;
+        std::swap(from, to);
+        return true;
+    }
+    const int moved = std::min({count, int{from.count}, limit - to.count});
+    if (moved <= 0) return false;
+    to = {from.item, static_cast<std::uint16_t>(to.count + moved), from.wear};
+    takeFromStack(from, moved);
+    return true;
+}
+
+int addItems(Inventory& inventory, std::string_view item, int count, int limit) {
     base::require(!item.empty() && item.size() <= kMaxItemName, "addItems: a name has 1 to 255 bytes");
     base::require(count >= 0, "addItems: a negative count");
     for (ItemStack& stack : inventory)
-        if (stack.item == item) count = addToStack(stack, item, count);
+        if (stack.item == item) count = addToStack(stack, item, count, limit);
     for (ItemStack& stack : inventory)
-        if (stack.item.empty()) count = addToStack(stack, item, count);
+        if (stack.item.empty()) count = addToStack(stack, item, count, limit);
     return count;
 }
 
@@ -62,11 +85,14 @@ int takeItems(Inventory& inventory, std::string_view item, int count) {
 
 BlockEntityData encodeInventory(const Inventory& inventory) {
     base::require(inventory.size() <= 0xFFFF, "encodeInventory: more than 65,535 slots");
-    BlockEntityData out{kVersion};
+    const bool hasWear =
+        std::ranges::any_of(inventory, [](const ItemStack& stack) { return stack.wear > 0; });
+    BlockEntityData out{hasWear ? kVersionWithWear : kVersion};
     append16(out, inventory.size());
     for (const ItemStack& stack : inventory) {
         base::require(stack.item.size() <= kMaxItemName, "encodeInventory: a name of more than 255 bytes");
         append16(out, stack.count);
+        if (hasWear) append16(out, stack.wear);
         out.push_back(static_cast<std::byte>(stack.item.size()));
         const auto name = std::as_bytes(std::span(stack.item));
         out.insert(out.end(), name.begin(), name.end());
@@ -75,22 +101,26 @@ BlockEntityData encodeInventory(const Inventory& inventory) {
 }
 
 base::Result<Inventory> decodeSlots(const BlockEntityData& data) {
-    if (data.size() < kHeaderBytes || data[0] != kVersion) return base::fail("not an inventory of version 1");
+    if (data.size() < kHeaderBytes || (data[0] != kVersion && data[0] != kVersionWithWear))
+        return base::fail("not an inventory of version 1 or 2");
+    const std::size_t wearBytes = data[0] == kVersionWithWear ? kWearBytes : 0;
+    const std::size_t slotBytes = kSlotBytes + wearBytes;
     std::span<const std::byte> rest(data);
     const std::size_t slotCount = read16(rest.subspan(1));
     rest = rest.subspan(kHeaderBytes);
     // Checked before memory is allocated: a slot has at least three bytes.
-    if (slotCount * kSlotBytes > rest.size()) return base::fail("an inventory that is cut off");
+    if (slotCount * slotBytes > rest.size()) return base::fail("an inventory that is cut off");
     Inventory inventory(slotCount);
     for (ItemStack& stack : inventory) {
-        if (rest.size() < kSlotBytes) return base::fail("an inventory that is cut off");
-        const auto length = std::to_integer<std::size_t>(rest[2]);
-        if (rest.size() < kSlotBytes + length) return base::fail("an inventory that is cut off");
+        if (rest.size() < slotBytes) return base::fail("an inventory that is cut off");
+        const auto length = std::to_integer<std::size_t>(rest[slotBytes - 1]);
+        if (rest.size() < slotBytes + length) return base::fail("an inventory that is cut off");
         stack.count = read16(rest);
-        stack.item.assign(reinterpret_cast<const char*>(rest.data()) + kSlotBytes, length);
-        if (stack.item.empty() != (stack.count == 0))
+        if (wearBytes > 0) stack.wear = read16(rest.subspan(2));
+        stack.item.assign(reinterpret_cast<const char*>(rest.data()) + slotBytes, length);
+        if (stack.item.empty() != (stack.count == 0) || (stack.item.empty() && stack.wear > 0))
             return base::fail("an inventory with a stack of nothing");
-        rest = rest.subspan(kSlotBytes + length);
+        rest = rest.subspan(slotBytes + length);
     }
     if (!rest.empty()) return base::fail("an inventory with {} bytes too many", rest.size());
     return inventory;

@@ -1,6 +1,6 @@
-// The items of a block with slots, such as a chest: stacks of items in the block's block entity data. An edit
-// by SetEntityData writes it back and saves it with the chunk. All are plain values; any thread may use them.
-// Negative counts and names that do not fit throw std::invalid_argument.
+// Stacks of items: of a player, or of a block with slots, such as a chest, in the block's block entity data.
+// An edit by SetEntityData writes it back and saves it with the chunk. All are plain values; any thread may
+// use them. Negative counts and names that do not fit throw std::invalid_argument.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@ namespace terrane::world {
 struct ItemStack {
     std::string item;  // empty: an empty slot
     std::uint16_t count = 0;
+    std::uint16_t wear = 0;  // uses of a tool so far
 
     bool operator==(const ItemStack&) const = default;
 };
@@ -26,20 +27,28 @@ constexpr std::size_t kMaxItemName = 255;  // bytes
 
 using Inventory = std::vector<ItemStack>;  // a stack each slot
 
-// Adds `count` items to stacks of the same item that have room, then into empty slots, from the first on.
-// Returns the number of items that did not fit.
-int addItems(Inventory& inventory, std::string_view item, int count);
+// Adds `count` items without wear to stacks of the same item that have room, then into empty slots, from the
+// first on. `limit`: items that a stack of it holds. Returns the number of items that did not fit.
+int addItems(Inventory& inventory, std::string_view item, int count, int limit = kMaxStack);
 // Removes at most `count` items, from the last slot on. Returns the number of removed items.
 int takeItems(Inventory& inventory, std::string_view item, int count);
-// These do the same with one stack; nothing is added to a stack of another item. Counts are 0 or more in all
-// four functions.
-int addToStack(ItemStack& stack, std::string_view item, int count);
+// These do the same with one stack; nothing is added to a stack of another item or wear. Counts are 0 or more
+// in all four functions.
+int addToStack(ItemStack& stack, std::string_view item, int count, int limit = kMaxStack);
 int takeFromStack(ItemStack& stack, int count);
+// Returns the number of these items in the inventory.
+int countItems(const Inventory& inventory, std::string_view item);
 
-// Encodes an inventory: version 1, number of slots (16 bits), then of each slot the count (16 bits;
-// little-endian both), the length of the name (8 bits) and the name. Names are at most kMaxItemName bytes.
+// Moves at most `count` items from a stack to another one of the same kind that has room, or to an empty one.
+// Two stacks of different kinds change places if `count` is the whole stack. Returns whether anything
+// changed.
+bool moveItems(ItemStack& from, ItemStack& to, int count, int limit = kMaxStack);
+
+// Encodes an inventory: a version, number of slots (16 bits), then of each slot the count (16 bits;
+// little-endian both), in version 2 the wear (16 bits), the length of the name (8 bits) and the name. Names
+// are at most kMaxItemName bytes. Version 1 is written unless an item has wear.
 BlockEntityData encodeInventory(const Inventory& inventory);
-// The slots as the bytes have them; an error if the bytes are no such inventory.
+// Returns the slots as the bytes have them; an error if the bytes are no such inventory.
 [[nodiscard]] base::Result<Inventory> decodeSlots(const BlockEntityData& data);
 // The items of a block. `slots`: the block's. Stacks of slots beyond them, which
 // programs up to 0.2 accepted, move into empty slots; those that find none follow as further slots, so that

@@ -9,6 +9,7 @@
 
 #include "apps/terrane/window/game/game_menu.h"
 #include "apps/terrane/window/game/pictures.h"
+#include "apps/terrane/window/hud/container_dialog.h"
 #include "apps/terrane/window/text.h"
 #include "terrane/game/items.h"
 #include "terrane/game/spawn.h"
@@ -27,8 +28,16 @@ void flip(bool& value) {
     value = !value;
 }
 
+// In survival the player's items; `workbench`: with its grid.
+void openItems(GameState& game, std::optional<world::BlockPos> workbench) {
+    captureMouse(game, false);
+    game.hud.inventory = {.isOpen = true, .workbench = workbench, .carried = {}};
+}
+
+// All blocks, or in survival the player's items.
 void openPalette(GameState& game) {
-    if (game.hud.palette.isOpen) return captureMouse(game, true);
+    if (game.hud.palette.isOpen || game.hud.inventory.isOpen) return captureMouse(game, true);
+    if (isInSurvival(game)) return openItems(game, {});
     captureMouse(game, false);
     game.hud.palette.open();
 }
@@ -120,15 +129,26 @@ bool openContainer(GameState& game) {
     const auto& target = game.interaction.target();
     const game::Session& session = game.parts.session;
     if (!target || !game::isContainer(session.world(), session.blocks(), target->block)) return false;
-    game.container = target->block;
     captureMouse(game, false);
+    game.container = target->block;
+    game.hud.inventory = {};
+    return true;
+}
+
+bool openWorkbench(GameState& game) {
+    const auto& target = game.interaction.target();
+    const game::Session& session = game.parts.session;
+    if (!target || !isInSurvival(game) ||
+        !canUseWorkbench(session, target->block, game.player.pose().position))
+        return false;
+    openItems(game, target->block);
     return true;
 }
 
 // Uses the targeted block, unless Shift is held: then a block is built against it.
 bool useTarget(GameState& game) {
     if (game.input.withShift) return false;
-    if (openContainer(game)) return true;
+    if (openContainer(game) || openWorkbench(game)) return true;
     const auto& target = game.interaction.target();
     return (target && game.building.openSign(target->block, buildViewOf(game))) ||
            game.interaction.use(game.parts.session, game::kLocalPlayer);
@@ -245,7 +265,8 @@ bool onDialogKey(GameState& game, Key key) {
         game.interaction.hotbar.blocks[*slot] = palette.pointedAt;
         return true;
     }
-    const bool closesPalette = palette.isOpen && key == Key::Tab;
+    const bool isItems = game.hud.inventory.isOpen || (game.container && isInSurvival(game));
+    const bool closesPalette = (palette.isOpen || isItems) && key == Key::Tab;
     if (closesPalette || (key == Key::Escape && hasOpenDialog(game.hud, game.remote.chat))) {
         captureMouse(game, true);
         return true;
@@ -288,7 +309,7 @@ void onMiddleButton(GameState& game) {
     if (game.input.isCaptured && game.building.isSelecting())
         captureMouse(game, false);  // the panel of the tool has buttons
     else if (game.input.isCaptured)
-        game.interaction.pick(game.parts.session);
+        game.interaction.pick(game.parts.session, game::kLocalPlayer);
     else if (!isInDialog(game))
         captureMouse(game, true);
 }

@@ -13,6 +13,7 @@
 #include "apps/terrane/window/hud/compass.h"
 #include "apps/terrane/window/hud/container_dialog.h"
 #include "apps/terrane/window/hud/hand_view.h"
+#include "apps/terrane/window/hud/inventory_dialog.h"
 #include "apps/terrane/window/hud/overlay.h"
 #include "apps/terrane/window/hud/places_panel.h"
 #include "apps/terrane/window/settings/panel.h"
@@ -60,6 +61,41 @@ BlockFace blockFaceOf(const GameParts& parts, const Texts& tr) {
                 return hasWorldImage(parts.renderer) ? parts.preview.image(block) : 0;
             },
             [&parts, &tr](world::BlockId block) { return tr.block(parts.session.blocks().type(block)); }};
+}
+
+// Refers to the game.
+ItemLooks itemLooksOf(GameState& game) {
+    const auto image = [&game](const std::string& item) -> unsigned {
+        const world::ItemType* type = game.parts.session.blocks().items().find(item);
+        if (!type) return 0;
+        if (type->block == world::kAir) return game.itemImages.image(type->texture);
+        return blockFaceOf(game.parts, game.tr).image(type->block);
+    };
+    const auto name = [&game](const std::string& item) {
+        return game.parts.session.blocks().items().find(item) ? game.tr.item(item) : item;
+    };
+    return {image, name};
+}
+
+HotbarLook hotbarLookOf(GameState& game) {
+    const game::Hotbar& hotbar = game.interaction.hotbar;
+    if (!isInSurvival(game)) {
+        const BlockFace face = blockFaceOf(game.parts, game.tr);
+        const auto drawSlot = [face, &hotbar](std::size_t slot, ImDrawList& draw, glm::vec2 min, float side) {
+            if (hotbar.blocks[slot] != world::kAir)
+                drawBlockImage(draw, min, side, face.image(hotbar.blocks[slot]));
+        };
+        return {hotbar.selected, hotbar.block() == world::kAir ? "" : face.name(hotbar.block()), drawSlot};
+    }
+    const world::Inventory& slots = game.parts.session.itemsOf(game::kLocalPlayer).slots;
+    const ItemLooks looks = itemLooksOf(game);
+    const world::ItemStack& hand = slots[hotbar.selected];
+    const auto drawSlot = [looks, &slots, &game](std::size_t slot, ImDrawList& draw, glm::vec2 min,
+                                                 float side) {
+        drawStack(draw, {min.x, min.y}, {min.x + side, min.y + side}, slots[slot], looks,
+                  game.parts.session.blocks().items());
+    };
+    return {hotbar.selected, hand.count == 0 ? "" : looks.name(hand.item), drawSlot};
 }
 
 std::string targetText(const game::BlockInteraction& interaction, const game::Session& session,
@@ -147,13 +183,16 @@ void drawHand(GameState& game, const Screen& screen, const render::Camera& camer
     const glm::vec3 light = lightOnHand(parts.session, game.player.pose().position);
     drawParticles(screen, camera, game.hud.particles, parts.renderer.topColors(), light);
     const world::BlockId block = game.interaction.block();
-    game.hud.hand.draw(screen, block == world::kAir ? 0 : blockFaceOf(parts, game.tr).image(block), light);
+    const world::ItemStack& hand = parts.session.itemsOf(game::kLocalPlayer).hand();
+    unsigned image = block == world::kAir ? 0 : blockFaceOf(parts, game.tr).image(block);
+    if (isInSurvival(game) && hand.count > 0) image = itemLooksOf(game).image(hand.item);
+    game.hud.hand.draw(screen, image, light);
 }
 
 // `seconds`: since the last frame.
 void drawHotbar(GameState& game, OverlayLayout& layout, double seconds) {
     if (!showsHud(game)) return;
-    game.hud.hotbar.draw(layout, game.interaction.hotbar, blockFaceOf(game.parts, game.tr), seconds);
+    game.hud.hotbar.draw(layout, hotbarLookOf(game), seconds);
 }
 
 void drawFacts(GameState& game, OverlayLayout& layout) {
@@ -173,6 +212,16 @@ std::optional<glm::vec3> shadowLightOf(const GameParts& parts) {
     return world::environmentAt(static_cast<float>(parts.session.clock.timeDay)).lightDirection;
 }
 
+// A bar below the crosshair: how much of the block is broken. `share`: 0 to 1.
+void drawMining(const Screen& screen, double share) {
+    if (share <= 0) return;
+    const float scale = uiScale(), half = 20 * scale, top = screen.height / 2 + 14 * scale;
+    const float left = screen.width / 2 - half, width = 2 * half * static_cast<float>(share);
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.AddRectFilled({left, top}, {left + 2 * half, top + 4 * scale}, IM_COL32(0, 0, 0, 140));
+    draw.AddRectFilled({left, top}, {left + width, top + 4 * scale}, IM_COL32(255, 255, 255, 220));
+}
+
 void drawLinesInWorld(const GameState& game, const Screen& screen, const render::Camera& camera) {
     const GameParts& parts = game.parts;
     if (game.debug.isAbove) {
@@ -180,6 +229,7 @@ void drawLinesInWorld(const GameState& game, const Screen& screen, const render:
         drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
                          view::fogDistance(viewDistance), shadowLightOf(parts));
     } else if (const auto& target = game.interaction.target(); target && !game.hud.isHidden) {
+        drawMining(screen, game.interaction.broken());
         drawTarget(screen, camera, *target,
                    {parts.session.world(), parts.session.blocks(), game.settings.highContrast});
     }
@@ -209,21 +259,26 @@ void drawDebugPanels(GameState& game, OverlayLayout& layout) {
     drawStatistics(layout, statisticsOf(game));
 }
 
+// The items of a player in survival, with the open chest.
+void drawInventoryDialog(GameState& game, const Screen& screen) {
+    game::Session& session = game.parts.session;
+    const glm::dvec3 eyes = game.player.pose().position;
+    InventoryState& state = game.hud.inventory;
+    const bool isFar = state.workbench && !canUseWorkbench(session, *state.workbench, eyes);
+    if (isFar || (game.container && !canUseContainer(session, *game.container, eyes)))
+        return captureMouse(game, true);
+    for (const game::ItemAction& action :
+         drawInventory(screen, session, game.container, state, itemLooksOf(game), game.tr))
+        (void)session.act(game::kLocalPlayer, action);
+}
+
 // Closes the dialog if the chest is gone or out of reach.
 void drawContainerDialog(GameState& game, const Screen& screen) {
     game::Session& session = game.parts.session;
     const world::BlockPos block = *game.container;
     if (!canUseContainer(session, block, game.player.pose().position)) return captureMouse(game, true);
-    const auto image = [&](const std::string& item) {
-        const world::BlockType* kind = session.blocks().find(item);
-        return kind ? game.parts.preview.image(kind->id) : 0;
-    };
-    const auto name = [&](const std::string& item) {
-        const world::BlockType* kind = session.blocks().find(item);
-        return kind ? game.tr.block(*kind) : item;
-    };
     const auto drawn =
-        drawOpenContainer(screen, session, block, game.interaction.hotbar, {image, name}, game.tr);
+        drawOpenContainer(screen, session, block, game.interaction.hotbar, itemLooksOf(game), game.tr);
     if (drawn) return;
     game.notices.say(drawn.error().message);
     captureMouse(game, true);
@@ -270,7 +325,11 @@ void drawOverlays(GameState& game, OverlayLayout& layout, double seconds) {
 void drawDialogs(GameState& game, const Screen& screen) {
     if (game.hud.palette.isOpen) drawPaletteDialog(game, screen);
     if (game.hud.placesDialog.isOpen) drawPlacesDialog(game, screen);
-    if (game.container) drawContainerDialog(game, screen);
+    const bool isOpen = game.container || game.hud.inventory.isOpen;
+    if (isOpen && isInSurvival(game))
+        drawInventoryDialog(game, screen);
+    else if (game.container)
+        drawContainerDialog(game, screen);
     drawMenu(game, screen);
 }
 

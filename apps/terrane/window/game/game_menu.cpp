@@ -100,6 +100,15 @@ void resume(GameState& game) {
     captureMouse(game, true);
 }
 
+// What lies in the grid goes back to the player's slots.
+void clearCraftingGrid(GameState& game) {
+    if (!game.hud.inventory.isOpen) return;
+    game::Session& session = game.parts.session;
+    const game::PlayerItems& items = session.itemsOf(game::kLocalPlayer);
+    for (const game::ItemAction& action : clearGrid(items, session.blocks().items()))
+        (void)session.act(game::kLocalPlayer, action);
+}
+
 }  // namespace
 
 void captureMouse(GameState& game, bool isCaptured) {
@@ -107,6 +116,7 @@ void captureMouse(GameState& game, bool isCaptured) {
     game.parts.window.setCursorCaptured(isCaptured);
     if (isCaptured) {
         game.imgui.endTyping();
+        clearCraftingGrid(game);
         game.container.reset();
         game.hud.closeDialog();
         game.remote.chat.endTyping();

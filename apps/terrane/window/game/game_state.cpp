@@ -14,6 +14,7 @@ GameState::GameState(const GameParts& given, const GameOptions& chosen)
       interaction(given.session.blocks()),
       bookmarks(game::bookmarkFiles(chosen.dataFolder)),
       imgui(given.window),
+      itemImages(given.content.textures),
       building(chosen.dataFolder),
       sounds(given.session),
       preset(chosen.deviceName, chosen.isSoftwareRenderer),
@@ -34,6 +35,10 @@ bool isInMenu(const GameMenu& menu) {
 
 bool hasOpenDialog(const Hud& hud, const ChatView& chat) {
     return hud.hasDialog() || chat.isTyping();
+}
+
+bool isInSurvival(const GameState& game) {
+    return game.parts.session.modeOf(game::kLocalPlayer) == game::Mode::Survival;
 }
 
 bool isInDialog(const GameState& game) {

@@ -87,6 +87,7 @@ struct GameState {
 
     ImguiLayer imgui;
     Hud hud;
+    ItemImages itemImages;
     Notices notices;
     BuildingTools building;
     bool wasAsking = false;    // building.isAsking() in the last frame
@@ -109,6 +110,7 @@ struct GameState {
 
 bool isInMenu(const GameMenu& menu);  // the game is paused
 bool hasOpenDialog(const Hud& hud, const ChatView& chat);
+bool isInSurvival(const GameState& game);
 // Keys do not move the player, and clicks do not capture the mouse.
 bool isInDialog(const GameState& game);
 

@@ -15,6 +15,8 @@
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/content/resource_pack.h"
+#include "terrane/game/item_commands.h"
+#include "terrane/game/item_keeper.h"
 #include "terrane/game/places.h"
 #include "terrane/game/spawn.h"
 #include "terrane/gen/generators/catalogue.h"
@@ -162,6 +164,7 @@ base::Result<void> PlayFlow::playChosen(const TitleChoice& choice) {
                      .content = options.world.content,
                      .heights = chosen.heights,
                      .threads = options.world.threads};
+    options.mode = chosen.mode;
     // A generator PACK:NAME needs its pack.
     if (chosen.generator && chosen.generator->find(':') != std::string::npos)
         options.world.content.push_back(chosen.generator->substr(0, chosen.generator->find(':')));
@@ -205,6 +208,7 @@ base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
     contentReadAt_ = std::filesystem::file_time_type::clock::now();
     auto world = TERRANE_TRY(openWorld(options));
     const game::SessionParts& parts = world.parts;
+    if (const auto mode = game::modeNamed(options.mode)) game::saveMode(*parts.store, *mode);
     PlaySettings settings = settings_;
     // The world's own, or those of the command line.
     settings.movement = options_.settings.movement;
@@ -286,8 +290,12 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, io::OpenedWorl
     GameState state({window_, world.content(), session, world.renderer(), world.view(), world.preview(),
                      world.compiler(), shaders_, signals_, remote.get()},
                     game);
+    std::optional<game::ItemKeeper> items;
+    std::optional<game::ItemCommands> itemCommands;
+    if (!remote) items.emplace(session);
     // A server runs the rules of its world itself.
     const rules::Rules rules(session, remote ? std::vector<pack::Pack>() : *world.content().packs);
+    if (!remote) itemCommands.emplace(session, [](game::PlayerId) { return true; });
     session.events.joined.notify(
         {game::kLocalPlayer, options.remote.name.empty() ? "Player" : options.remote.name});
     host_.game = &state;

@@ -1,10 +1,10 @@
-// The dialog of an open chest: shows its items and handles clicks. Immediate mode: drawn each frame.
+// The dialog of an open chest in creative: shows its items and handles clicks. Immediate mode: drawn each
+// frame.
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <string>
 
+#include "apps/terrane/window/hud/item_view.h"
 #include "apps/terrane/window/hud/overlay.h"
 #include "terrane/base/result.h"
 #include "terrane/game/items.h"
@@ -12,18 +12,16 @@
 
 namespace terrane::app {
 
-// The slots of an open chest in the middle of the window. Immediate mode: draws, and returns the click.
-// Image and name of an item, by its name in the inventory.
-struct ItemLooks {
-    std::function<unsigned(const std::string&)> image;  // OpenGL texture, 0: none
-    std::function<std::string(const std::string&)> name;
-};
-
+// Draws the slots of an open chest in the middle of the window, and returns the click.
 std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::Inventory& items,
-                                             const ItemLooks& looks, const Texts& tr);
+                                             const world::ItemTable& table, const ItemLooks& looks,
+                                             const Texts& tr);
 
 // Whether the block is a container within reach of the player's eyes.
 bool canUseContainer(const game::Session& session, world::BlockPos block, const glm::dvec3& eyes);
+
+// Whether the block is a workbench within reach of the player's eyes.
+bool canUseWorkbench(const game::Session& session, world::BlockPos block, const glm::dvec3& eyes);
 
 // Draws the items, and moves clicked ones between the chest and the hotbar. Fails if its items cannot be
 // read.

@@ -44,10 +44,10 @@ void drawBlockImage(ImDrawList& draw, glm::vec2 min, float side, unsigned image)
                   {min.x + side, min.y + side}, {0, 0}, {1, 1});
 }
 
-void HotbarView::draw(OverlayLayout& layout, const game::Hotbar& hotbar, const BlockFace& face,
-                      double seconds) {
-    if (hotbar.block() != shown_.block() || hotbar.selected != shown_.selected) nameSeconds_ = kNameSeconds;
-    shown_ = hotbar;
+void HotbarView::draw(OverlayLayout& layout, const HotbarLook& look, double seconds) {
+    if (look.name != shown_ || look.selected != selected_) nameSeconds_ = kNameSeconds;
+    shown_ = look.name;
+    selected_ = look.selected;
     nameSeconds_ = std::max(0.0, nameSeconds_ - seconds);
     constexpr float kSlotsWidth = game::Hotbar::kSlots * (kSlot + kGap) - kGap;
     const float scale = std::min(uiScale(), layout.widest() / kSlotsWidth);
@@ -61,7 +61,7 @@ void HotbarView::draw(OverlayLayout& layout, const game::Hotbar& hotbar, const B
     // Grouped by texture: each change of the texture is a draw call.
     for (std::size_t slot = 0; slot < game::Hotbar::kSlots; ++slot) {
         const ImVec2 min = corner(slot), max(min.x + side, min.y + side);
-        const bool isChosen = slot == hotbar.selected;
+        const bool isChosen = slot == look.selected;
         draw.AddRectFilled(min, max, IM_COL32(12, 14, 18, isChosen ? 170 : 120), 4 * scale);
         if (isChosen) draw.AddRect(min, max, IM_COL32(255, 255, 255, 235), 4 * scale, 0, 2 * scale);
         const char digit[] = {static_cast<char>('1' + slot), 0};
@@ -69,11 +69,10 @@ void HotbarView::draw(OverlayLayout& layout, const game::Hotbar& hotbar, const B
     }
     for (std::size_t slot = 0; slot < game::Hotbar::kSlots; ++slot) {
         const glm::vec2 min(corner(slot).x + edge, top + edge);
-        if (hotbar.blocks[slot] != world::kAir)
-            drawBlockImage(draw, min, side - 2 * edge, face.image(hotbar.blocks[slot]));
+        look.drawSlot(slot, draw, min, side - 2 * edge);
     }
-    if (nameSeconds_ > 0 && hotbar.block() != world::kAir)
-        drawName(layout, top, face.name(hotbar.block()), static_cast<float>(std::min(nameSeconds_, 1.0)));
+    if (nameSeconds_ > 0 && !look.name.empty())
+        drawName(layout, top, look.name, static_cast<float>(std::min(nameSeconds_, 1.0)));
 }
 
 namespace {

@@ -20,14 +20,22 @@ struct BlockFace {
     std::function<std::string(world::BlockId)> name;  // translated
 };
 
+// The slots of the hotbar: blocks in creative, the first stacks of a player in survival.
+struct HotbarLook {
+    std::size_t selected = 0;
+    std::string name;  // of what the chosen slot holds; empty: nothing
+    std::function<void(std::size_t slot, ImDrawList& draw, glm::vec2 min, float side)> drawSlot;
+};
+
 // Shows the chosen block's name for a moment after a change.
 class HotbarView {
   public:
     // `seconds`: since the last frame.
-    void draw(OverlayLayout& layout, const game::Hotbar& hotbar, const BlockFace& face, double seconds);
+    void draw(OverlayLayout& layout, const HotbarLook& look, double seconds);
 
   private:
-    game::Hotbar shown_;
+    std::string shown_;  // name of the chosen slot's content
+    std::size_t selected_ = 0;
     double nameSeconds_ = 0;
 };
 

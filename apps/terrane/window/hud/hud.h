@@ -7,6 +7,7 @@
 #include "apps/terrane/window/game/pictures.h"
 #include "apps/terrane/window/hud/hand_view.h"
 #include "apps/terrane/window/hud/hotbar_view.h"
+#include "apps/terrane/window/hud/inventory_dialog.h"
 #include "apps/terrane/window/hud/places_panel.h"
 #include "terrane/gen/generators/biomes.h"
 #include "terrane/view/block_particles.h"
@@ -20,6 +21,7 @@ struct Hud {
     view::BlockParticles particles;
     PaletteState palette;
     PlacesState placesDialog;
+    InventoryState inventory;
     std::vector<game::Place> places;  // named places of this world
     bool showsFacts = false;          // position and biome
     bool isHidden = false;            // all but dialogs and messages
@@ -28,8 +30,11 @@ struct Hud {
     std::optional<world::Pose> spawn;  // found at the first request
     glm::dvec3 walkedFrom{0};          // position in the last frame
 
-    bool hasDialog() const { return palette.isOpen || placesDialog.isOpen; }
-    void closeDialog() { palette.isOpen = placesDialog.isOpen = false; }
+    bool hasDialog() const { return palette.isOpen || placesDialog.isOpen || inventory.isOpen; }
+    void closeDialog() {
+        palette.isOpen = placesDialog.isOpen = false;
+        inventory = {};
+    }
 };
 
 }  // namespace terrane::app

@@ -35,7 +35,7 @@ constexpr std::array kActions = {
     ActionRow{Action::SaveBookmark, "save-bookmark", trLater("Save a bookmark"), Key::F5, {}, {}, kOpens},
     ActionRow{
         Action::NextBookmark, "next-bookmark", trLater("Go to the next bookmark"), Key::F6, {}, {}, kOpens},
-    ActionRow{Action::Palette, "palette", trLater("Choose a block"), Key::Tab},
+    ActionRow{Action::Palette, "palette", trLater("Choose a block; in survival, your items"), Key::Tab},
     ActionRow{Action::Places, "places", trLater("Named places"), Key::N},
     ActionRow{Action::Spawn, "spawn", trLater("Go to the spawn"), Key::H},
     ActionRow{Action::Facts, "facts", trLater("Show the position"), Key::F7, {}, {}, kOpens},

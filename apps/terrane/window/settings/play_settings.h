@@ -59,6 +59,7 @@ struct PlayOptions {
     io::SaveOptions save;
     bool savesNothing = false;
     bool skipsTitle = false;
+    std::string mode;      // of the world, by game::kModeNames; empty: its own
     bool watches = false;  // reload content packs that change
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;

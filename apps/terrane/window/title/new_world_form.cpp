@@ -16,6 +16,7 @@
 #include "terrane/base/names.h"
 #include "terrane/base/profile.h"
 #include "terrane/base/result.h"
+#include "terrane/game/player_items.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/map/area_image.h"
 #include "terrane/store/saves/world_list.h"
@@ -197,8 +198,10 @@ base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesyste
     auto seed = seedOf(form);
     if (!seed) return base::fail(base::ErrorCode::BadInput, "seed: {}", seed.error().message);
     (void)TERRANE_TRY(heightsOf(form));
+    constexpr auto kSurvival = static_cast<std::size_t>(game::Mode::Survival);
     return ChosenWorld{store::worldFile(folder, name), std::move(*seed), form.generator,
-                       TERRANE_TRY(typedHeights(form))};
+                       TERRANE_TRY(typedHeights(form)),
+                       form.isSurvival ? std::string(game::kModeNames[kSurvival]) : std::string()};
 }
 
 }  // namespace terrane::app

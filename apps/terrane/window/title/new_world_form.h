@@ -53,12 +53,14 @@ struct ChosenWorld {
     std::optional<store::WrittenSeed> seed;  // for a new world
     std::optional<std::string> generator;
     world::RequestedHeights heights;  // for a new world
+    std::string mode = {};            // by game::kModeNames; empty: its own
 };
 
 struct NewWorldForm {
     std::string name;
     std::string seed;  // empty: randomSeed
     std::string generator;
+    bool isSurvival = false;
     std::string bottom, top;  // empty: those of `declared`
     world::Heights declared;  // by the generator
     std::uint64_t randomSeed = 0;

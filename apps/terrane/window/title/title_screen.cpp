@@ -340,6 +340,7 @@ void TitleScreen::drawForm() {
         ImGui::EndCombo();
     }
     drawHeights();
+    ui::checkbox(tr_("Survival"), &form_.isSurvival);
     ImGui::PopItemWidth();
     ImGui::Spacing();
     const float width = halfWidth();
