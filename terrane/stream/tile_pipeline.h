@@ -40,13 +40,14 @@ struct TileParts {
 struct TileMesh {
     world::ChunkPos pos;
     MeshPtr mesh;
+    world::ChunkPtr blocks;  // that the mesh shows
 };
 
 // Receives tiles that have changed. Any thread may call it, also after the end of the pipeline.
 using TileListener = std::function<void(std::span<const world::ChunkPos>)>;
 
-// Makes the mesh of a tile. Any thread may call it. Throws if the level has no generator.
-MeshPtr makeTile(const TileParts& parts, world::ChunkPos pos, mesh::MergeMethod method);
+// Makes a tile and its mesh. Any thread may call it. Throws if the level has no generator.
+TileMesh makeTile(const TileParts& parts, world::ChunkPos pos, mesh::MergeMethod method);
 
 class TilePipeline {
   public:

@@ -74,6 +74,10 @@ std::size_t WorldView::upload(double budgetSeconds) {
     const auto start = Clock::now();
     std::size_t count = 0;
     keepWithinBudget();
+    if (showsBlocks_ != renderer_.readsBlocks()) {
+        showsBlocks_ = renderer_.readsBlocks();
+        showAgain();
+    }
     do {
         const std::vector<stream::ChunkChange> changes = session_.pipeline().takeChanges(1);
         if (changes.empty()) break;
@@ -141,6 +145,10 @@ void WorldView::keepWithinBudget() {
     const std::size_t budget = renderer_.memoryBudget();
     if (used.total() <= budget || used.fixed() <= fixedBytes_) return;
     fixedBytes_ = used.fixed();
+    showAgain();
+}
+
+void WorldView::showAgain() {
     session_.pipeline().hideAll();
     for (const world::ChunkPos pos : session_.pipeline().takeHidden()) hide(pos);
     renderer_.clearChunks();
@@ -161,6 +169,11 @@ void WorldView::show(const stream::ChunkChange& change) {
     far_.prepareChunk(change.pos);
     const auto setLight = [&] { return renderer_.setLight(change.pos, *change.light, change.bricks); };
     if (change.light && !makeRoomFor(change.pos, setLight)) return;
+    const auto setBlocks = [&] {
+        world::ChunkPtr blocks = session_.world().maybeChunkAt(change.pos);
+        return !blocks || renderer_.setBlocks(change.pos, std::move(blocks));
+    };
+    if ((change.mesh || change.needsMesh) && !makeRoomFor(change.pos, setBlocks)) return;
     // An edited chunk that is queued or in flight is meshed again as a whole.
     if (change.needsMesh || (change.mesh && queue_ && queue_->contains(change.pos))) {
         queue_->add(change.pos);

@@ -48,7 +48,8 @@ class WorldView {
           renderer_(renderer),
           far_(session, renderer),
           tints_(session, renderer),
-          land_(session, renderer) {
+          land_(session, renderer),
+          showsBlocks_(renderer.readsBlocks()) {
         renderer.setHeights(session.world().heights());
         renderer.setAirLevels(gen::airLevelsOf(session.store().identity().generator));
     }
@@ -98,6 +99,7 @@ class WorldView {
     bool shortenHorizon();
     void moveView();
     void keepWithinBudget();
+    void showAgain();
     void noticeShortView();
     void hide(world::ChunkPos pos);
     void advanceQueue();
@@ -117,6 +119,7 @@ class WorldView {
     int requestedDistance_ = -1, viewDistance_ = -1;  // chunks; -1: no view yet
     std::size_t fixedBytes_ = 0;                      // when all chunks were removed last
     bool hasWarned_ = false, hasNoticed_ = false;
+    bool showsBlocks_ = false;  // the renderer has the blocks of what it shows
     std::optional<std::string> notice_;
 };
 

@@ -184,6 +184,12 @@ std::vector<GraphicsRow> makeTable() {
          .tip = "How a smaller image is enlarged: see the render scale.\nCost: low on a graphics card.",
          .valueLabels = {"Automatic", "Soft", "Square pixels", "Along edges"},
          .isOfPreset = false},
+        {.name = "renderer",
+         .description = "How visible surfaces are found: quads by the rasterizer, or blocks by rays",
+         .valueNames = {"quads", "rays"},
+         .get = getMember<&RenderOptions::surfaces>,
+         .set = setMember<&RenderOptions::surfaces>,
+         .isOfPreset = false},
         {.name = "draw",
          .description = "Culling and draw calls: in lists by the graphics card, one by one by the processor, "
                         "or as suits the driver",

@@ -206,6 +206,23 @@ std::vector<TransparencyVariant> TransparencyVariant::all() {
     });
 }
 
+gpu::ShaderDefines RayVariant::defines() const {
+    return defined({{"PASS", PASS_RAYS},
+                    {"RAY_LAYER", number(layer)},
+                    {"MSAA_SAMPLES", samples},
+                    {"SMOOTH", isSmooth},
+                    {"FACE_SAMPLING", hasFaceSampling},
+                    {"TINT", hasTint}});
+}
+
+std::vector<RayVariant> RayVariant::all() {
+    auto variants = with(withSamples<RayVariant>(), &RayVariant::layer,
+                         {RayLayer::Surfaces, RayLayer::First, RayLayer::Next});
+    variants = only(with(variants, &RayVariant::isSmooth),
+                    [](const RayVariant& v) { return v.isSmooth || v.layer == RayLayer::Surfaces; });
+    return with(with(variants, &RayVariant::hasFaceSampling), &RayVariant::hasTint);
+}
+
 gpu::ShaderDefines ShadeVariant::defines() const {
     return defined({{"MSAA_SAMPLES", samples},
                     {"PER_SAMPLE", isPerSample},
@@ -387,6 +404,7 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
         {"quads/gbuffer.frag", [] { return definesOf(GBufferVariant::all()); }},
         {"shadow/shadow.frag", [] { return definesOf(ShadowVariant::all()); }},
         {"shading/depth_peel.frag", [] { return definesOf(PeelVariant::all()); }},
+        {"rays/rays.frag", [] { return definesOf(RayVariant::all()); }},
         {"shading/transparency.frag", [] { return definesOf(TransparencyVariant::all()); }},
         {"shading/shade.frag", [] { return definesOf(ShadeVariant::all()); }},
         {"shading/pixel_mask.frag", [] { return definesOf(MaskVariant::all()); }},

@@ -93,6 +93,22 @@ struct PeelVariant {
     static std::vector<PeelVariant> all();
 };
 
+enum class RayLayer : std::uint8_t {
+    Surfaces = RAY_SURFACES,  // behind all blended faces
+    First = RAY_FIRST_LAYER,
+    Next = RAY_NEXT_LAYER
+};
+// rays/rays.frag.glsl
+struct RayVariant {
+    RayLayer layer = RayLayer::Surfaces;
+    int samples = 1;
+    bool isSmooth = false;
+    bool hasFaceSampling = false, hasTint = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<RayVariant> all();
+};
+
 struct TransparencyVariant {
     int samples = 1, layers = 1;
     SunVariant sun;

@@ -60,5 +60,5 @@ void main() {
 #if TINT == 1
     setTintPlace(q.cellBlocks.xy * q.cell.xy + chunkCorner(q.chunk, q.level, frame.cameraChunk), position.xy);
 #endif
-    outTexel = texelOf(q.quad, q.face, q.corner) * extentOf(outFace.x);
+    outTexel = texelOf(quadShapeFace(q.quad), q.face, q.corner) * extentOf(outFace.x);
 }
