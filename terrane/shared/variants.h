@@ -23,6 +23,7 @@
 #define SHADOW_NONE 0
 #define SHADOW_HARD 1
 #define SHADOW_SOFT 2
+#define SHADOW_RAYS 3
 
 // LIGHT: far away, in air, LIGHT_SIMPLE reads one voxel
 #define LIGHT_CLASSIC 0

@@ -117,13 +117,15 @@ struct TilePipeline::Results {
     }
 };
 
-TileMesh makeTile(const TileParts& parts, ChunkPos pos, mesh::MergeMethod method) {
+TileMesh makeTile(const TileParts& parts, ChunkPos pos, std::optional<mesh::MergeMethod> method) {
     TERRANE_ZONE("make tile");
     thread_local mesh::MeshScratch scratch;
     auto chunk = std::make_shared<world::Chunk>(tileBlocks(parts, pos));
     raiseDeepFloor(*chunk, parts.blocks);
-    auto mesh = std::make_shared<const mesh::ChunkMesh>(
-        mesh::meshTile(*chunk, parts.blocks, {method, kMeshSectionHeight}, scratch));
+    MeshPtr mesh;
+    if (method)
+        mesh = std::make_shared<const mesh::ChunkMesh>(
+            mesh::meshTile(*chunk, parts.blocks, {*method, kMeshSectionHeight}, scratch));
     return {pos, std::move(mesh), std::move(chunk)};
 }
 
@@ -134,7 +136,7 @@ TilePipeline::~TilePipeline() {
     parts_.jobs.waitIdle();
 }
 
-void TilePipeline::update(mesh::MergeMethod method) {
+void TilePipeline::update(std::optional<mesh::MergeMethod> method) {
     takeResults();
     if (std::exchange(method_, method) != method) invalidateAllTiles(table_);
     const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();

@@ -30,7 +30,9 @@ bool FarView::upload(std::chrono::steady_clock::time_point deadline) {
         if (!tiles_.table().records.at(tiles.front().pos).isShown)
             renderer_.setShown(tiles.front().pos, false);
         const stream::TileMesh& tile = tiles.front();
-        if (renderer_.setBlocks(tile.pos, tile.blocks) && renderer_.setChunk(tile.pos, *tile.mesh)) continue;
+        if (renderer_.setBlocks(tile.pos, tile.blocks) &&
+            (!tile.mesh || renderer_.setChunk(tile.pos, *tile.mesh)))
+            continue;
         tiles_.putBack(std::move(tiles.front()));
         return false;
     }

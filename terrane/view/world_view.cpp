@@ -74,10 +74,7 @@ std::size_t WorldView::upload(double budgetSeconds) {
     const auto start = Clock::now();
     std::size_t count = 0;
     keepWithinBudget();
-    if (showsBlocks_ != renderer_.readsBlocks()) {
-        showsBlocks_ = renderer_.readsBlocks();
-        showAgain();
-    }
+    updateShownParts();
     do {
         const std::vector<stream::ChunkChange> changes = session_.pipeline().takeChanges(1);
         if (changes.empty()) break;
@@ -148,6 +145,15 @@ void WorldView::keepWithinBudget() {
     showAgain();
 }
 
+// What the renderer did not have before comes again.
+void WorldView::updateShownParts() {
+    if (shown_ == shownParts()) return;
+    shown_ = shownParts();
+    session_.pipeline().setMeshing(shown_.quads && !queue_ ? stream::MeshPolicy::Workers
+                                                           : stream::MeshPolicy::Caller);
+    showAgain();
+}
+
 void WorldView::showAgain() {
     session_.pipeline().hideAll();
     for (const world::ChunkPos pos : session_.pipeline().takeHidden()) hide(pos);
@@ -170,10 +176,14 @@ void WorldView::show(const stream::ChunkChange& change) {
     const auto setLight = [&] { return renderer_.setLight(change.pos, *change.light, change.bricks); };
     if (change.light && !makeRoomFor(change.pos, setLight)) return;
     const auto setBlocks = [&] {
-        world::ChunkPtr blocks = session_.world().maybeChunkAt(change.pos);
-        return !blocks || renderer_.setBlocks(change.pos, std::move(blocks));
+        return renderer_.setBlocks(change.pos, session_.pipeline().meshBlocks(change.pos)[0]);
     };
-    if ((change.mesh || change.needsMesh) && !makeRoomFor(change.pos, setBlocks)) return;
+    const bool hasBlocks = shown_.blocks && (change.mesh || change.needsMesh);
+    if (hasBlocks && !makeRoomFor(change.pos, setBlocks)) return;
+    if (!shown_.quads) {
+        if (hasBlocks) far_.setChunkReady(change.pos, true);
+        return;
+    }
     // An edited chunk that is queued or in flight is meshed again as a whole.
     if (change.needsMesh || (change.mesh && queue_ && queue_->contains(change.pos))) {
         queue_->add(change.pos);

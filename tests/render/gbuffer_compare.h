@@ -12,8 +12,7 @@
 
 namespace terrane::render {
 
-// Rays are drawn in images so many times as large: each pixel has this number squared of rays, the middle one
-// through its center.
+// Rays are drawn in images of the same size and in finer ones, so many times as large.
 constexpr int kRaysAcrossPixel = 5;
 
 // What a target shows at each pixel: kind of face, and distance along the view; 0 if nothing.
@@ -22,6 +21,8 @@ struct SeenFaces {
     std::vector<std::uint32_t> kind;  // direction, whether of a far tile, of a layer whether of a liquid
     std::vector<float> distance;
 };
+
+constexpr std::uint32_t kNoKind = 99;
 
 inline SeenFaces seenIn(const Target& depth, const Target& packed, bool isLayer) {
     SeenFaces seen{depth.shape().size, {}, {}};
@@ -45,17 +46,24 @@ inline SeenFaces seenSurfaces(const Renderer& renderer) {
     const SharedTargets& targets = renderer.frame().targets;
     return seenIn(*targets.depth, *targets.surfaces, false);
 }
-// A pixel without a face has the depth of the surface behind, and no kind.
+// A pixel without a face has the depth of the surface behind, and no kind. Layers of quads are not written where
+// no mesh section has a face: the targets are cleared before the frame, by clearLayers().
 inline SeenFaces seenLayer(const Renderer& renderer, std::size_t number) {
     const SharedTargets& targets = renderer.frame().targets;
     SeenFaces seen = seenIn(*targets.layerDepths[number], *targets.layers[number], true);
     const SeenFaces behind = seenSurfaces(renderer);
     for (std::size_t k = 0; k < seen.kind.size(); ++k) {
-        const bool isThere = seen.distance[k] != behind.distance[k];
-        seen.kind[k] = isThere ? seen.kind[k] : 99;
+        const bool isThere =
+            seen.distance[k] > 0 && (behind.distance[k] == 0 || seen.distance[k] < behind.distance[k]);
+        seen.kind[k] = isThere ? seen.kind[k] : kNoKind;
         seen.distance[k] = isThere ? seen.distance[k] : 0;
     }
     return seen;
+}
+inline void clearLayers(const Renderer& renderer) {
+    constexpr float kFarthest = 0;
+    for (const TargetRef& depth : renderer.frame().targets.layerDepths)
+        glClearTexImage(depth->id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &kFarthest);
 }
 
 struct FaceAgreement {
@@ -76,35 +84,41 @@ struct FaceAgreement {
     }
 };
 
-// `rays`: kRaysAcrossPixel times as large as `quads`. Upright sides of far tiles lie up to a quarter of a
-// column deeper in the depth of quads than they are (quad.vert.glsl); columns are at most a 32nd of their
-// distance wide, or two blocks.
-inline FaceAgreement compareFaces(const SeenFaces& quads, const SeenFaces& rays) {
-    const auto agrees = [&](std::size_t pixel, std::size_t ray) {
-        if (quads.kind[pixel] != rays.kind[ray]) return false;
-        const double drawn = quads.distance[pixel], seen = rays.distance[ray];
-        const double tolerance = 0.01 + 2e-4 * seen;
+// `rays`: of the same size. `fine`: kRaysAcrossPixel times as large. Upright sides of far tiles lie up to a
+// quarter of a column deeper in the depth of quads than they are (quad.vert.glsl); columns are at most a 32nd
+// of their distance wide, or two blocks.
+inline FaceAgreement compareFaces(const SeenFaces& quads, const SeenFaces& rays, const SeenFaces& fine) {
+    // `slope`: by how much the distance of faces of this kind changes within the pixel. Corners of quads are
+    // off by up to a 256th of a pixel on the screen.
+    const auto agrees = [&](std::size_t pixel, const SeenFaces& seen, std::size_t ray, double slope) {
+        if (quads.kind[pixel] != seen.kind[ray]) return false;
+        const double drawn = quads.distance[pixel], met = seen.distance[ray];
+        const double tolerance = 0.01 + 2e-4 * met + slope / 64;
         const bool isTileSide = (quads.kind[pixel] & ~7u) == 8 && (quads.kind[pixel] & 7) < 4;
-        const double deeper = isTileSide ? 0.25 * std::max(2.0, seen / 32) : 0;
-        return drawn >= seen - tolerance && drawn <= seen + deeper + tolerance;
+        const double deeper = isTileSide ? 0.25 * std::max(2.0, met / 32) : 0;
+        return drawn >= met - tolerance && drawn <= met + deeper + tolerance;
     };
-    constexpr int kMiddle = kRaysAcrossPixel / 2;
     FaceAgreement sum;
     for (int y = 0; y < quads.size.y; ++y) {
         for (int x = 0; x < quads.size.x; ++x) {
             const auto pixel = static_cast<std::size_t>(x + quads.size.x * y);
-            const auto rayAt = [&](int dx, int dy) {
-                return static_cast<std::size_t>(kRaysAcrossPixel * x + dx +
-                                                rays.size.x * (kRaysAcrossPixel * y + dy));
-            };
+            std::vector<std::size_t> around;
+            double low = 1e9, high = 0;
+            for (int k = 0; k < kRaysAcrossPixel * kRaysAcrossPixel; ++k) {
+                around.push_back(static_cast<std::size_t>(
+                    kRaysAcrossPixel * x + k % kRaysAcrossPixel +
+                    fine.size.x * (kRaysAcrossPixel * y + k / kRaysAcrossPixel)));
+                if (fine.kind[around.back()] != quads.kind[pixel]) continue;
+                low = std::min(low, double{fine.distance[around.back()]});
+                high = std::max(high, double{fine.distance[around.back()]});
+            }
+            const double slope = std::max(high - low, 0.0);
             ++sum.pixels;
-            const std::size_t center = rayAt(kMiddle, kMiddle);
-            sum.shown += rays.distance[center] > 0;
-            sum.tiles += rays.distance[center] > 0 && (rays.kind[center] & ~7u) == 8;
-            bool isEdge = false;
-            for (int k = 0; k < kRaysAcrossPixel * kRaysAcrossPixel && !isEdge; ++k)
-                isEdge = agrees(pixel, rayAt(k % kRaysAcrossPixel, k / kRaysAcrossPixel));
-            ++(agrees(pixel, center) ? sum.centers : isEdge ? sum.edges : sum.others);
+            sum.shown += rays.distance[pixel] > 0;
+            sum.tiles += rays.distance[pixel] > 0 && (rays.kind[pixel] & ~7u) == 8;
+            const bool isEdge = std::ranges::any_of(
+                around, [&](std::size_t ray) { return agrees(pixel, fine, ray, slope); });
+            ++(agrees(pixel, rays, pixel, slope) ? sum.centers : isEdge ? sum.edges : sum.others);
         }
     }
     return sum;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <random>
 
 #include "terrane/world/blocks/block_registry.h"
@@ -22,30 +23,41 @@ constexpr glm::ivec2 kQuadsSize{96, 54};
 
 class RaysPassTest : public gpu::GlTest {
   protected:
-    static Renderer makeRenderer(SurfaceMethod method) {
+    void SetUp() override {
+        GlTest::SetUp();
+        if (!hasContext()) return;
+        quads_ = makeRenderer(SurfaceMethod::Quads);
+        rays_ = makeRenderer(SurfaceMethod::Rays);
+        fine_ = makeRenderer(SurfaceMethod::Rays, kRaysAcrossPixel);
+    }
+
+    static Renderer makeRenderer(SurfaceMethod method, int times = 1) {
         Renderer renderer =
             Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice()).value();
         RenderOptions options = plainOptions(1);
         options.surfaces = method;
-        const int times = method == SurfaceMethod::Rays ? kRaysAcrossPixel : 1;
         EXPECT_TRUE(renderer.configure(times * kQuadsSize, options));
         return renderer;
     }
 
     void show(const world::World& world) {
         for (const auto& [pos, mesh] : golden::meshWorld(world)) {
-            EXPECT_TRUE(quads_.setChunk(pos, mesh));
-            EXPECT_TRUE(rays_.setBlocks(pos, std::make_shared<const world::Chunk>(*world.maybeChunkAt(pos))));
+            EXPECT_TRUE(quads_->setChunk(pos, mesh));
+            const auto chunk = std::make_shared<const world::Chunk>(*world.maybeChunkAt(pos));
+            EXPECT_TRUE(rays_->setBlocks(pos, chunk) && fine_->setBlocks(pos, chunk));
         }
     }
 
     FaceAgreement compare(const Camera& camera) {
         const FrameInput input{camera, world::environmentAt(0.5f), 1e6f};
-        quads_.draw(input);
-        rays_.draw(input);
-        FaceAgreement sum = compareFaces(seenSurfaces(quads_), seenSurfaces(rays_));
+        clearLayers(*quads_);
+        quads_->draw(input);
+        rays_->draw(input);
+        fine_->draw(input);
+        FaceAgreement sum = compareFaces(seenSurfaces(*quads_), seenSurfaces(*rays_), seenSurfaces(*fine_));
         for (std::size_t k = 0; k < 3; ++k) {
-            const FaceAgreement layer = compareFaces(seenLayer(quads_, k), seenLayer(rays_, k));
+            const FaceAgreement layer =
+                compareFaces(seenLayer(*quads_, k), seenLayer(*rays_, k), seenLayer(*fine_, k));
             sum += layer;
             layers_ += layer.shown;
         }
@@ -72,7 +84,7 @@ class RaysPassTest : public gpu::GlTest {
         return sum;
     }
 
-    Renderer quads_ = makeRenderer(SurfaceMethod::Quads), rays_ = makeRenderer(SurfaceMethod::Rays);
+    std::optional<Renderer> quads_, rays_, fine_;  // made in the context
     std::mt19937 random_{5};
     int layers_ = 0;
 };
@@ -99,8 +111,9 @@ world::World everyBlock(std::mt19937& random) {
 
 TEST_F(RaysPassTest, EveryBlockInEveryState) {
     for (int k = 0; k < atDepth(2, 8); ++k) {
-        quads_.clearChunks();
-        rays_.clearChunks();
+        quads_->clearChunks();
+        rays_->clearChunks();
+        fine_->clearChunks();
         show(everyBlock(random_));
         compareAround({0, 0, golden::kGalleryZ + 1}, 14, atDepth(4, 12));
     }

@@ -73,13 +73,13 @@ std::vector<GraphicsRow> makeTable() {
              "Steps from block to block, or smooth transitions.\nCost: low.",
              {"Classic", "Smooth"}}),
         rowOf<&RenderOptions::shadows>(
-            {"off", "near", "far", "horizon"},
+            {"off", "near", "far", "horizon", "rays"},
             {"shadows",
              "Distance up to which sun and moon cast shadows: none, 50 blocks, 800 blocks, or all that is "
-             "visible",
+             "visible, from maps or by rays",
              "Shadows",
              "How far the sun and the moon cast shadows.\nCost: medium, higher while you move.",
-             {"Off", "Near", "Far", "To the horizon"}}),
+             {"Off", "Near", "Far", "To the horizon", "By rays"}}),
         {.name = "shadow-size",
          .description = "Texels along a side of each shadow map",
          .valueNames = {"1024", "2048", "4096"},

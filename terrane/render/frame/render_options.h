@@ -40,6 +40,7 @@ enum class ShadowReach : std::uint8_t {
     Near,     // 50 blocks
     Far,      // 800 blocks
     Horizon,  // as far as land is visible
+    Rays,     // the same, by one ray for each shaded point: docs/rays.md
 };
 
 // How visible surfaces are found.

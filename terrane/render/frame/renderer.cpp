@@ -119,8 +119,7 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
         TERRANE_TRY(rebuild(before));
         return lit;
     }
-    const bool castsRays = options.surfaces == SurfaceMethod::Rays;
-    if (castsRays != rays_.isUsed()) makeRays(castsRays);
+    if (readsBlocks() != rays_.isUsed()) makeRays(readsBlocks());
     return {};
 }
 
@@ -371,6 +370,7 @@ bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
     } else {
         readWritten(pos);
     }
+    if (!readsQuads()) return true;
     shareBudget();
     const bool hasRoom = setQuads(pos, mesh, meshSections);
     notePeak();

@@ -68,9 +68,10 @@ class Renderer {
         return quads_.meshSectionsOf(pos);
     }
     gpu::ArenaBuffers quadBuffers() const { return quads_.buffers(); }  // until the next change
-    // Returns whether frames need blocks instead of the quads of what is shown: with SurfaceMethod::Rays. When
-    // that changes, all chunks and tiles come again.
-    bool readsBlocks() const { return rays_.isUsed(); }
+    // Return what frames with the current options need of chunks and tiles. When that changes, all of them
+    // come again.
+    bool readsQuads() const { return render::readsQuads(options()); }    // setChunk(), reserveChunk()
+    bool readsBlocks() const { return render::readsBlocks(options()); }  // setBlocks()
     // Sets the blocks of a chunk or tile, not null, if frames need them. Returns false if there is no room
     // within the budget: it is not shown then.
     bool setBlocks(world::ChunkPos pos, world::ChunkPtr blocks);

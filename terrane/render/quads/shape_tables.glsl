@@ -6,6 +6,10 @@
 layout(binding = kShapeFacesUnit) uniform samplerBuffer shapeFaces;  // four texels a face
 layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
+// Faces of a liquid are this many blocks inside of it: those against glass would share a plane with the glass, and
+// which of the two is nearer would change from pixel to pixel.
+const float kLiquidInset = 1.0 / 1024.0;
+
 // Only faces of models have a bend: others do without the fourth read. The surface of a liquid is as high as its
 // material says, and lower where it flows.
 ShapeFace shapeFaceOf(uint number, MaterialRecord material) {

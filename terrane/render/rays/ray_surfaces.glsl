@@ -1,6 +1,6 @@
 // Finds the nearest surface along a ray: the faces that meshes have (mesh/cell_faces.h), one cell after the other, as
 // rays/surfaces.h does on the CPU. RAY_LAYER: see shared/variants.h. Needs frame_uniforms.glsl, shape_tables.glsl,
-// block_texture.glsl.
+// block_texture.glsl, and alphaOf(), which decides about holes.
 #include "terrane/shared/mesher.h"
 #include "terrane/shared/packed_section.h"
 #include "terrane/shared/ray_blocks.h"
@@ -122,6 +122,8 @@ struct FaceLook {
     vec2 texel, dx, dy;
 };
 
+float alphaOf(FaceLook look);
+
 // `t`, `corner`: where the ray meets it. Texture coordinates change linearly on each of two triangles. A pixel to the
 // side meets the same plane at another distance.
 FaceLook lookOf(uint number, uint material, float t, vec2 corner) {
@@ -158,8 +160,7 @@ void offerAt(uint number, uint face, float t, vec2 corner, bool isFront) {
 #if RAY_LAYER == RAY_SURFACES
     if (face >> 17 == uint(ALPHA_TESTED)) {
         FaceLook look = lookOf(number, face & 0xFFFFu, t, corner);
-        float alpha = blockTexture(look.packedFace, look.texel, look.dx, look.dy).a;
-        if (alpha < minAlpha(look.packedFace)) return;
+        if (alphaOf(look) < minAlpha(look.packedFace)) return;
     }
 #endif
     nearest = RaySurface(t, number, face & 0xFFFFu, isFront ? 1u : 0u);
@@ -200,8 +201,12 @@ const float kFaceBorder = 1.0 / 4096.0;
 // Offers any face of the cell. With a bend it is two triangles.
 void offerFace(uint number, uint face, bool isTwoSided) {
     if (!isSought(face)) return;
-    ShapeFace shape = shapeFaceOf(number, materialOf(face & 0xFFFFu));
-    vec3 origin = originOf(shape), u = shape.axisU.xyz, v = shape.axisV.xyz;
+    MaterialRecord material = materialOf(face & 0xFFFFu);
+    ShapeFace shape = shapeFaceOf(number, material);
+    vec3 origin = originOf(shape);
+    if (lookAnimation(material.look) == kAnimationLiquidSurface)
+        origin -= kLiquidInset * here.scale * normalOf(faceDirectionOf(shape));
+    vec3 u = shape.axisU.xyz, v = shape.axisV.xyz;
     vec4 met = meetPlane(origin, u, v);
     vec2 corner = met.yz;
     bool isBent = shape.bend.xyz != vec3(0.0), isFirst = met.y + met.z <= 1.0 + kFaceBorder;
@@ -364,6 +369,15 @@ void enterCell(Ray ray, RayHit hit) {
     self = blockOf(here.blocks, here.at);
     selfType = typeOf(self.id);
 }
+
+// A ray from a point, in blocks from the corner of the camera's chunk at z = 0.
+Ray rayFrom(vec3 point, vec3 direction, float end) {
+    vec3 low = floor(point);
+    ivec3 cell = ivec3(int(kChunkSize) * frame.cameraChunk, 0) + ivec3(low);
+    return makeRay(ivec4(cell, 0), vec4(point - low, 0.0), vec4(direction, 0.0), end);
+}
+
+const float kEndOfRays = 1048576.0;  // blocks
 
 // Finds the nearest surface between two t, in `nearest`, and its cell in `here`. A ray that begins in an opaque cube
 // meets nothing before it has left such cubes.

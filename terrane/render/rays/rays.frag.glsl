@@ -27,8 +27,6 @@ layout(binding = kTransparencyDepthUnit) uniform sampler2D lastDepths;
 const float kNotBehind = 1.0 - 1.0 / 524288.0;
 #endif
 
-const float kEndOfRays = 1048576.0;  // blocks along the view
-
 #if MSAA_SAMPLES > 1
 #define SAMPLE gl_SampleID
 #else
@@ -60,6 +58,10 @@ bool setRange(ivec2 pixel, out float end) {
     return true;
 }
 
+float alphaOf(FaceLook look) {
+    return blockTexture(look.packedFace, look.texel, look.dx, look.dy).a;
+}
+
 float glowOf(uint face, float alpha) {
     if (alphaModeOf(face) == kAlphaGlow) return alpha;
     return alphaModeOf(face) == kAlphaTestGlow ? clamp(2.0 * alpha - 1.0, 0.0, 1.0) : 0.0;
@@ -71,10 +73,7 @@ void main() {
     rayUpPixel = 2.0 / frame.viewportSize.y * frame.rayUp.xyz;
     float end;
     if (!setRange(ivec2(gl_FragCoord.xy), end)) discard;
-    vec3 first = floor(frame.cameraPosition.xyz);
-    ivec3 cell = ivec3(int(kChunkSize) * frame.cameraChunk, 0) + ivec3(first);
-    vec3 inCell = frame.cameraPosition.xyz - first;
-    if (!findSurface(makeRay(ivec4(cell, 0), vec4(inCell, 0.0), vec4(direction, 0.0), end))) discard;
+    if (!findSurface(rayFrom(frame.cameraPosition.xyz, direction, end))) discard;
     bool isFront = nearest.isFront != 0u;
     FaceLook look = lookOf(nearest.shapeFace, nearest.material, nearest.t, nearestCorner);
     uint face = look.packedFace, side = directionOfFace(face);

@@ -21,14 +21,18 @@ base::Result<const gpu::Program*> rayProgram(FrameBuilder& build, RayLayer layer
 void drawRays(FrameContext& context, const gpu::Program& program, bool isBlended,
               const gpu::TextureSet& textures) {
     context.worldTextures.bind();
-    context.resources.bindTables();
-    context.resources.bindTextures(context.frame.drawn.sharpFiltering);
-    context.rays.bind(isBlended);
+    bindRays(context, isBlended);
     drawFullscreen(context, program,
                    {.depthTest = gpu::DepthTest::Greater, .readsSampleId = context.frame.samples > 1}, textures);
 }
 
 }  // namespace
+
+void bindRays(FrameContext& context, bool isBlended) {
+    context.resources.bindTables();
+    context.resources.bindTextures(context.frame.drawn.sharpFiltering);
+    context.rays.bind(isBlended);
+}
 
 MaybePass makeRaySurfaces(FrameBuilder& build) {
     const auto* program = TERRANE_TRY(rayProgram(build, RayLayer::Surfaces));

@@ -8,6 +8,9 @@ namespace terrane::render {
 
 MaybePass makeRaySurfaces(FrameBuilder& build);
 
+// Binds what shaders with ray_surfaces.glsl read. `isBlended`: see RayStore::bind().
+void bindRays(FrameContext& context, bool isBlended);
+
 struct RayLayerPrograms {
     const gpu::Program *first = nullptr, *next = nullptr;  // null: not by rays
 

@@ -94,6 +94,7 @@ struct ShadeLayers {
     std::array<const gpu::Program*, 2> shade{};  // in air, under water
     OcclusionPrograms occlusion{};
     bool hasOcclusion = false, isDirect = false, drawsQuads = false, isBounded = true;
+    bool castsRays = false;  // for shadows
     PixelMask mask;  // one sample, or a single layer: none
     std::shared_ptr<const gpu::Framebuffer>
         over;  // where quads are drawn: the scene or the image, with the first layer's depth
@@ -152,6 +153,7 @@ struct ShadeLayers {
             context.shadingTextures().add(context.frame.gbufferTextures()).add(layerTextures());
         if (!isDirect) textures.add(shared::kSceneUnit, scene->id());
         if (hasOcclusion) textures.add(shared::kOcclusionUnit, occlusion.visibility.target->id());
+        if (castsRays) bindRays(context, false);
         const gpu::Program& program = *shade[context.isUnderWater() ? 1 : 0];
         if (drawsQuads) {
             drawOverQuads(context, program, textures);
@@ -244,6 +246,7 @@ MaybePass makeShadeLayers(FrameBuilder& build) {
         .light = options.light == LightSampling::Smooth ? LightDetail::Smooth : LightDetail::Classic,
         .drawsQuads = pass.drawsQuads,
         .isDirect = pass.isDirect};
+    pass.castsRays = variant.sun.shadows == ShadowEdges::Rays;
     for (const bool isUnderWater : {false, true}) {
         variant.isUnderWater = isUnderWater;
         pass.shade[isUnderWater ? 1 : 0] = TERRANE_TRY(
