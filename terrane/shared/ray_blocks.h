@@ -38,19 +38,5 @@ SHARED_FN uint rayBlockEntry(uint entry) {
 
 // Block types are shared::MeshType (mesher.h): those of chunks, then as many as seen in far tiles.
 
-// What a ray meets in a shader.
-struct RaySurface {
-    float t;
-    uint shapeFace;
-    uint material;
-    uint isFront;  // 0: the back of a two-sided face
-};
-
 SHARED_END
-
-#ifdef __cplusplus
-namespace terrane::shared {
-static_assert(sizeof(RaySurface) == 16);
-}  // namespace terrane::shared
-#endif
 #endif

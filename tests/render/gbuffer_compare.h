@@ -29,7 +29,9 @@ inline SeenFaces seenIn(const Target& depth, const Target& packed, bool isLayer)
     const auto pixels = static_cast<std::size_t>(seen.size.x) * static_cast<std::size_t>(seen.size.y);
     std::vector<float> depths(pixels);
     std::vector<std::uint16_t> channels(4 * pixels);
-    const auto bytes = [](const auto& values) { return static_cast<GLsizei>(values.size() * sizeof(values[0])); };
+    const auto bytes = [](const auto& values) {
+        return static_cast<GLsizei>(values.size() * sizeof(values[0]));
+    };
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, bytes(depths), depths.data());
     glGetTextureImage(packed.id(), 0, GL_RGBA, GL_UNSIGNED_SHORT, bytes(channels), channels.data());
@@ -46,8 +48,8 @@ inline SeenFaces seenSurfaces(const Renderer& renderer) {
     const SharedTargets& targets = renderer.frame().targets;
     return seenIn(*targets.depth, *targets.surfaces, false);
 }
-// A pixel without a face has the depth of the surface behind, and no kind. Layers of quads are not written where
-// no mesh section has a face: the targets are cleared before the frame, by clearLayers().
+// A pixel without a face has the depth of the surface behind, and no kind. Layers of quads are not written
+// where no mesh section has a face: the targets are cleared before the frame, by clearLayers().
 inline SeenFaces seenLayer(const Renderer& renderer, std::size_t number) {
     const SharedTargets& targets = renderer.frame().targets;
     SeenFaces seen = seenIn(*targets.layerDepths[number], *targets.layers[number], true);
@@ -105,9 +107,9 @@ inline FaceAgreement compareFaces(const SeenFaces& quads, const SeenFaces& rays,
             std::vector<std::size_t> around;
             double low = 1e9, high = 0;
             for (int k = 0; k < kRaysAcrossPixel * kRaysAcrossPixel; ++k) {
-                around.push_back(static_cast<std::size_t>(
-                    kRaysAcrossPixel * x + k % kRaysAcrossPixel +
-                    fine.size.x * (kRaysAcrossPixel * y + k / kRaysAcrossPixel)));
+                around.push_back(
+                    static_cast<std::size_t>(kRaysAcrossPixel * x + k % kRaysAcrossPixel +
+                                             fine.size.x * (kRaysAcrossPixel * y + k / kRaysAcrossPixel)));
                 if (fine.kind[around.back()] != quads.kind[pixel]) continue;
                 low = std::min(low, double{fine.distance[around.back()]});
                 high = std::max(high, double{fine.distance[around.back()]});
@@ -116,8 +118,8 @@ inline FaceAgreement compareFaces(const SeenFaces& quads, const SeenFaces& rays,
             ++sum.pixels;
             sum.shown += rays.distance[pixel] > 0;
             sum.tiles += rays.distance[pixel] > 0 && (rays.kind[pixel] & ~7u) == 8;
-            const bool isEdge = std::ranges::any_of(
-                around, [&](std::size_t ray) { return agrees(pixel, fine, ray, slope); });
+            const bool isEdge =
+                std::ranges::any_of(around, [&](std::size_t ray) { return agrees(pixel, fine, ray, slope); });
             ++(agrees(pixel, rays, pixel, slope) ? sum.centers : isEdge ? sum.edges : sum.others);
         }
     }
@@ -125,9 +127,10 @@ inline FaceAgreement compareFaces(const SeenFaces& quads, const SeenFaces& rays,
 }
 
 inline std::string textOf(const FaceAgreement& a) {
-    return fmt::format("{} pixels, {} with faces ({} of tiles): {} agree with the ray through their center, {} "
-                       "with another one, {} with none",
-                       a.pixels, a.shown, a.tiles, a.centers, a.edges, a.others);
+    return fmt::format(
+        "{} pixels, {} with faces ({} of tiles): {} agree with the ray through their center, {} "
+        "with another one, {} with none",
+        a.pixels, a.shown, a.tiles, a.centers, a.edges, a.others);
 }
 
 }  // namespace terrane::render

@@ -71,10 +71,13 @@ class RaysPassTest : public gpu::GlTest {
             const glm::dvec3 away{unit(random_), unit(random_), 0.15 + 0.8 * std::abs(unit(random_))};
             const glm::dvec3 from = middle + radius * away;
             const glm::dvec3 look = middle + 4.0 * glm::dvec3(unit(random_), unit(random_), 0) - from;
-            const double yaw = std::atan2(look.y, look.x), pitch = std::atan2(look.z, std::hypot(look.x, look.y));
-            const FaceAgreement found =
-                compare({from, static_cast<float>(glm::degrees(yaw)), static_cast<float>(glm::degrees(pitch))});
-            EXPECT_LE(found.others, found.pixels / 500) << fmt::format("camera {},{},{} yaw {} pitch {}", from.x, from.y, from.z, glm::degrees(yaw), glm::degrees(pitch));
+            const double yaw = std::atan2(look.y, look.x),
+                         pitch = std::atan2(look.z, std::hypot(look.x, look.y));
+            const FaceAgreement found = compare(
+                {from, static_cast<float>(glm::degrees(yaw)), static_cast<float>(glm::degrees(pitch))});
+            EXPECT_LE(found.others, found.pixels / 500)
+                << fmt::format("camera {},{},{} yaw {} pitch {}", from.x, from.y, from.z, glm::degrees(yaw),
+                               glm::degrees(pitch));
             sum += found;
         }
         fmt::print("{}\n", textOf(sum));
@@ -98,7 +101,8 @@ world::World everyBlock(std::mt19937& random) {
             for (int x = -16; x < 16; ++x) {
                 if (random() % 4 == 0) continue;
                 const world::BlockType& type = types[random() % types.size()];
-                if (!world::putBlock(world, {x, y, z}, type.id)) throw std::runtime_error("outside of the world");
+                if (!world::putBlock(world, {x, y, z}, type.id))
+                    throw std::runtime_error("outside of the world");
                 std::size_t states = type.growth.size() + 1;
                 if (type.model) states = type.model->stateMask + 1u;
                 if (type.shape == world::Shape::Liquid) states = 16;
@@ -140,7 +144,9 @@ TEST_F(RaysPassTest, EditsAreSeen) {
     const auto types = contentBlocks().types();
     for (int k = 0; k < atDepth(5, 20); ++k) {
         for (int n = 0; n < 40; ++n) {
-            const auto at = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); };
+            const auto at = [&](int low, int high) {
+                return std::uniform_int_distribution<int>(low, high)(random_);
+            };
             world::putBlock(world, {at(-4, 18), at(-4, 18), at(76, 84)}, types[random_() % types.size()].id);
         }
         show(world);

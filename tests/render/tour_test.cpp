@@ -23,7 +23,8 @@ class Tour : public gpu::GlTest {
         // A new option does not compile here before it is set below.
         [[maybe_unused]] const auto& [samples, shading, light, shadows, shadowSize, soft, occlusion,
                                       depthOfField, fog, rays, clouds, animation, filtering, alphaTest, water,
-                                      layers, single, junctions, culling, backs, scale, upscaling, draw, surfaces] = o;
+                                      layers, single, junctions, culling, backs, scale, upscaling, draw,
+                                      surfaces] = o;
         o.msaaSamples = 1 << pick(3);
         o.shading = static_cast<Shading>(pick(4));
         o.light = static_cast<LightSampling>(pick(2));
@@ -48,7 +49,8 @@ class Tour : public gpu::GlTest {
         o.upscaling = static_cast<Upscaling>(pick(4));
         o.draw = static_cast<DrawMethod>(pick(3));
         // Rays have no quads whose corners could be shaded.
-        o.surfaces = o.shading == Shading::Corners ? SurfaceMethod::Quads : static_cast<SurfaceMethod>(pick(2));
+        o.surfaces =
+            o.shading == Shading::Corners ? SurfaceMethod::Quads : static_cast<SurfaceMethod>(pick(2));
         return o;
     }
 

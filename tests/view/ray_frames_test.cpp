@@ -34,7 +34,8 @@ class RayFramesTest : public gpu::GlTest {
 };
 
 TEST_F(RayFramesTest, RaysAndQuadsShowTheSame) {
-    const auto quads = makePlayer(render::SurfaceMethod::Quads), rays = makePlayer(render::SurfaceMethod::Rays);
+    const auto quads = makePlayer(render::SurfaceMethod::Quads),
+               rays = makePlayer(render::SurfaceMethod::Rays);
     bench::ShownBlocks blocks(*quads->session);
     std::mt19937 random(3);
     const auto within = [&](int reach) { return std::uniform_int_distribution<int>(-reach, reach)(random); };

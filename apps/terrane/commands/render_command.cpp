@@ -265,8 +265,9 @@ base::Result<render::GraphicsChoices> graphicsChoices(const RenderCommandOptions
         const auto row = std::ranges::find(table, name, &render::GraphicsRow::name);
         const auto choice = render::choiceOf(*row, value);
         if (!choice)
-            return base::fail(base::ErrorCode::BadInput, "--{}: {} is not one of {} of --renderer quads and rays",
-                              name, value, render::valueNamesOf(*row));
+            return base::fail(base::ErrorCode::BadInput,
+                              "--{}: {} is not one of {} of --renderer quads and rays", name, value,
+                              render::valueNamesOf(*row));
         choices.changed.emplace_back(row - table.begin(), *choice);
         return {};
     };
@@ -325,10 +326,11 @@ base::Result<void> renderImage(const CLI::App& command, const RenderCommandOptio
 
 void addRendererOptions(CLI::App& command, RenderCommandOptions& options) {
     command.remove_option(command.get_option("--renderer"));
-    addChoice(command, "--renderer", options.renderer,
-              {{"quads", RendererKind::Quads}, {"rays", RendererKind::Rays}, {"path", RendererKind::Path}},
-              "What finds visible surfaces: the rasterizer, or one ray for each sample; or a path tracer, which "
-              "is slow and follows light over many bounces");
+    addChoice(
+        command, "--renderer", options.renderer,
+        {{"quads", RendererKind::Quads}, {"rays", RendererKind::Rays}, {"path", RendererKind::Path}},
+        "What finds visible surfaces: the rasterizer, or one ray for each sample; or a path tracer, which "
+        "is slow and follows light over many bounces");
     PathOptions& path = options.path;
     command.remove_option(command.get_option("--samples"));
     command

@@ -86,8 +86,8 @@ struct RenderOptions {
     bool occlusionCulling = true;  // of mesh sections behind others
     bool leafBacks = true;         // back sides of leaves, seen through holes; with occlusion culling
     int renderScale = 100;         // size of the drawn image, percent of the screen's: no preset sets it
-    Upscaling upscaling = Upscaling::Auto;  // no preset sets it
-    DrawMethod draw = DrawMethod::Auto;     // no preset sets it
+    Upscaling upscaling = Upscaling::Auto;          // no preset sets it
+    DrawMethod draw = DrawMethod::Auto;             // no preset sets it
     SurfaceMethod surfaces = SurfaceMethod::Quads;  // no preset sets it
 
     bool operator==(const RenderOptions&) const = default;

@@ -205,8 +205,8 @@ void RayStore::place(ChunkPos pos, Tile& tile) {
     tile.head = allocate(static_cast<Word>(head.size()));
     if (tile.head.count == 0) return unplace(pos, tile);
     write(tile.head.first, head);
-    tile.entry = shared::rayBlockEntry(
-        shared::rayEntryAt(rays::raysThrough(scenes_[0]), pos.level, pos.x, pos.y));
+    tile.entry =
+        shared::rayBlockEntry(shared::rayEntryAt(rays::raysThrough(scenes_[0]), pos.level, pos.x, pos.y));
     write(tile.entry, std::span(&tile.head.first, 1));
     tile.uploaded = tile.chunk;
 }
@@ -239,7 +239,8 @@ void RayStore::uploadScenes() {
         rays::Scene& scene = scenes_[k];
         grow(sceneWords_[k], scene.words.size(), "cells of rays");
         rays::takeWritten(scene, [&](std::size_t first, std::size_t count) {
-            sceneWords_[k].upload(first * kWordBytes, std::as_bytes(std::span(scene.words).subspan(first, count)));
+            sceneWords_[k].upload(first * kWordBytes,
+                                  std::as_bytes(std::span(scene.words).subspan(first, count)));
         });
     }
 }
@@ -287,8 +288,8 @@ void RayStore::bind(bool isBlended) const {
 }
 
 std::size_t RayStore::gpuBytes() const {
-    return sceneWords_[0].sizeBytes() + sceneWords_[1].sizeBytes() + blocks_.sizeBytes() + types_.sizeBytes() +
-           forms_.sizeBytes();
+    return sceneWords_[0].sizeBytes() + sceneWords_[1].sizeBytes() + blocks_.sizeBytes() +
+           types_.sizeBytes() + forms_.sizeBytes();
 }
 
 std::size_t RayStore::usedBytes() const {

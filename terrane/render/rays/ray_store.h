@@ -57,9 +57,9 @@ class RayStore {
         world::ChunkPtr chunk;     // null: only `isShown` is known
         world::ChunkPtr uploaded;  // as on the GPU; null: it is not there
         bool isShown = true;
-        std::uint32_t entry = 0;       // its place in the grid of blocks
-        Range head;                    // the words of its sections
-        std::vector<Range> sections;   // blocks and block state of each section, from the bottom
+        std::uint32_t entry = 0;         // its place in the grid of blocks
+        Range head;                      // the words of its sections
+        std::vector<Range> sections;     // blocks and block state of each section, from the bottom
         std::size_t estimatedBytes = 0;  // on the GPU
     };
 

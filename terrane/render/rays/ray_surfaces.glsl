@@ -41,6 +41,14 @@ struct RayCell {
     float t;         // at the entry
 };
 
+// What a ray meets.
+struct RaySurface {
+    float t;
+    uint shapeFace;
+    uint material;
+    bool isFront;  // else the back of a two-sided face
+};
+
 // The ray, the cell where it is, and the nearest surface in it. In global variables: arguments would be copied.
 vec3 rayAcrossPixel, rayUpPixel;  // from a pixel's ray to those of the pixels to the right and above
 float rayLeastT, rayMostT;        // surfaces before and behind are not looked for
@@ -163,7 +171,7 @@ void offerAt(uint number, uint face, float t, vec2 corner, bool isFront) {
         if (alphaOf(look) < minAlpha(look.packedFace)) return;
     }
 #endif
-    nearest = RaySurface(t, number, face & 0xFFFFu, isFront ? 1u : 0u);
+    nearest = RaySurface(t, number, face & 0xFFFFu, isFront);
     nearestCorner = corner;
 }
 
@@ -383,7 +391,7 @@ const float kEndOfRays = 1048576.0;  // blocks
 // meets nothing before it has left such cubes.
 bool findSurface(Ray ray) {
     RayPlace place = rayBegin(ray);
-    nearest = RaySurface(kNoSurface, 0u, 0u, 0u);
+    nearest = RaySurface(kNoSurface, 0u, 0u, true);
     rayMostT = ray.start.w;
     bool isEnclosed = false;
     for (;;) {

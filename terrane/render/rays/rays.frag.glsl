@@ -74,10 +74,9 @@ void main() {
     float end;
     if (!setRange(ivec2(gl_FragCoord.xy), end)) discard;
     if (!findSurface(rayFrom(frame.cameraPosition.xyz, direction, end))) discard;
-    bool isFront = nearest.isFront != 0u;
     FaceLook look = lookOf(nearest.shapeFace, nearest.material, nearest.t, nearestCorner);
     uint face = look.packedFace, side = directionOfFace(face);
-    if (!isFront && side < kDirectionPlant) side ^= 1u;
+    if (!nearest.isFront && side < kDirectionPlant) side ^= 1u;
     vec4 texel = blockTexture(face, look.texel, look.dx, look.dy);
 #if TINT == 1
     vec2 corner = chunkCorner(here.tile, uint(here.level), frame.cameraChunk);

@@ -23,7 +23,8 @@ void drawRays(FrameContext& context, const gpu::Program& program, bool isBlended
     context.worldTextures.bind();
     bindRays(context, isBlended);
     drawFullscreen(context, program,
-                   {.depthTest = gpu::DepthTest::Greater, .readsSampleId = context.frame.samples > 1}, textures);
+                   {.depthTest = gpu::DepthTest::Greater, .readsSampleId = context.frame.samples > 1},
+                   textures);
 }
 
 }  // namespace
@@ -53,7 +54,8 @@ MaybePass makeRaySurfaces(FrameBuilder& build) {
 base::Result<RayLayerPrograms> RayLayerPrograms::make(FrameBuilder& build) {
     RayLayerPrograms programs;
     programs.first = TERRANE_TRY(rayProgram(build, RayLayer::First));
-    if (build.options().transparencyLayers > 1) programs.next = TERRANE_TRY(rayProgram(build, RayLayer::Next));
+    if (build.options().transparencyLayers > 1)
+        programs.next = TERRANE_TRY(rayProgram(build, RayLayer::Next));
     return programs;
 }
 

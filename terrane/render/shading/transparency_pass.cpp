@@ -95,7 +95,7 @@ struct ShadeLayers {
     OcclusionPrograms occlusion{};
     bool hasOcclusion = false, isDirect = false, drawsQuads = false, isBounded = true;
     bool castsRays = false;  // for shadows
-    PixelMask mask;  // one sample, or a single layer: none
+    PixelMask mask;          // one sample, or a single layer: none
     std::shared_ptr<const gpu::Framebuffer>
         over;  // where quads are drawn: the scene or the image, with the first layer's depth
     TargetRef scene;
