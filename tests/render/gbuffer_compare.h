@@ -48,15 +48,18 @@ inline SeenFaces seenSurfaces(const Renderer& renderer) {
     const SharedTargets& targets = renderer.frame().targets;
     return seenIn(*targets.depth, *targets.surfaces, false);
 }
-// A pixel without a face has the depth of the surface behind, and no kind. Layers of quads are not written
-// where no mesh section has a face: the targets are cleared before the frame, by clearLayers().
+// A pixel without a face has the depth of the surface behind, and no kind. A face in the plane of the surface
+// behind, such as the back of glass beside leaves, does not count: rounding decides which of them is nearer.
+// Layers of quads are not written where no mesh section has a face: the targets are cleared before the frame,
+// by clearLayers().
 inline SeenFaces seenLayer(const Renderer& renderer, std::size_t number) {
     const SharedTargets& targets = renderer.frame().targets;
     SeenFaces seen = seenIn(*targets.layerDepths[number], *targets.layers[number], true);
     const SeenFaces behind = seenSurfaces(renderer);
     for (std::size_t k = 0; k < seen.kind.size(); ++k) {
-        const bool isThere =
-            seen.distance[k] > 0 && (behind.distance[k] == 0 || seen.distance[k] < behind.distance[k]);
+        constexpr float kBefore = 1 - 1 / 65536.0f;
+        const bool isThere = seen.distance[k] > 0 &&
+                             (behind.distance[k] == 0 || seen.distance[k] < kBefore * behind.distance[k]);
         seen.kind[k] = isThere ? seen.kind[k] : kNoKind;
         seen.distance[k] = isThere ? seen.distance[k] : 0;
     }
@@ -91,11 +94,10 @@ struct FaceAgreement {
 // of their distance wide, or two blocks.
 inline FaceAgreement compareFaces(const SeenFaces& quads, const SeenFaces& rays, const SeenFaces& fine) {
     // `slope`: by how much the distance of faces of this kind changes within the pixel. Corners of quads are
-    // off by up to a 256th of a pixel on the screen.
+    // off by up to a 256th of a pixel on the screen, which tilts small ones that are seen edge on.
     const auto agrees = [&](std::size_t pixel, const SeenFaces& seen, std::size_t ray, double slope) {
-        if (quads.kind[pixel] != seen.kind[ray]) return false;
         const double drawn = quads.distance[pixel], met = seen.distance[ray];
-        const double tolerance = 0.01 + 2e-4 * met + slope / 64;
+        const double tolerance = 0.01 + 2e-4 * met + slope / 16;
         const bool isTileSide = (quads.kind[pixel] & ~7u) == 8 && (quads.kind[pixel] & 7) < 4;
         const double deeper = isTileSide ? 0.25 * std::max(2.0, met / 32) : 0;
         return drawn >= met - tolerance && drawn <= met + deeper + tolerance;
@@ -118,9 +120,14 @@ inline FaceAgreement compareFaces(const SeenFaces& quads, const SeenFaces& rays,
             ++sum.pixels;
             sum.shown += rays.distance[pixel] > 0;
             sum.tiles += rays.distance[pixel] > 0 && (rays.kind[pixel] & ~7u) == 8;
+            // Two faces that meet at an edge have one distance there; quads grow over it.
+            const bool isNear = agrees(pixel, rays, pixel, slope);
             const bool isEdge =
-                std::ranges::any_of(around, [&](std::size_t ray) { return agrees(pixel, fine, ray, slope); });
-            ++(agrees(pixel, rays, pixel, slope) ? sum.centers : isEdge ? sum.edges : sum.others);
+                isNear || std::ranges::any_of(around, [&](std::size_t ray) {
+                    return quads.kind[pixel] == fine.kind[ray] && agrees(pixel, fine, ray, slope);
+                });
+            const bool isSame = isNear && quads.kind[pixel] == rays.kind[pixel];
+            ++(isSame ? sum.centers : isEdge ? sum.edges : sum.others);
         }
     }
     return sum;
