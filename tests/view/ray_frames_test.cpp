@@ -58,8 +58,11 @@ TEST_F(RayFramesTest, RaysAndQuadsShowTheSame) {
     EXPECT_GT(sum.tiles, 0);
     // Nothing was meshed for rays.
     EXPECT_EQ(rays->renderer.quadBytes(), 0u);
-    for (const stream::TaskTime& task : rays->session->taskTimes())
-        if (std::string_view(task.name) == "mesh") EXPECT_EQ(task.count, 0u);
+    for (const stream::TaskTime& task : rays->session->taskTimes()) {
+        if (std::string_view(task.name) == "mesh") {
+            EXPECT_EQ(task.count, 0u);
+        }
+    }
 }
 
 TEST_F(RayFramesTest, AnEditIsSeenInTheNextFrame) {
@@ -72,7 +75,7 @@ TEST_F(RayFramesTest, AnEditIsSeenInTheNextFrame) {
     const glm::dvec3 ahead = camera.position + 3.0 * glm::dvec3(render::lookDirection(camera));
     const world::BlockPos at{static_cast<int>(std::floor(ahead.x)), static_cast<int>(std::floor(ahead.y)),
                              static_cast<int>(std::floor(ahead.z))};
-    const world::PlacedBlock placed{at, {contentBlock("stone")}};
+    const world::PlacedBlock placed{at, {contentBlock("stone"), 0, nullptr}};
     rays->session->setBlocks(std::span(&placed, 1));
     rays->view->follow(camera, kFramesNear);
     rays->view->upload(0);
