@@ -1,11 +1,12 @@
 // Compares what rays see with what quads draw: the G-buffer and the layers, pixel by pixel.
 #pragma once
 
-#include <gtest/gtest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "terrane/render/frame/renderer.h"
