@@ -9,6 +9,11 @@ namespace terrane::app {
 
 base::Result<std::unique_ptr<view::Offscreen>> openOffscreen(const OffscreenOptions& options) {
     const GraphicsOptions& graphics = options.graphics;
+    const bool castsRays =
+        render::settingsOf(graphics.choices, false).render.surfaces == render::SurfaceMethod::Rays;
+    if (castsRays && graphics.view == render::View::Merging)
+        return base::fail(base::ErrorCode::BadInput,
+                          "--view merging cannot be used with --renderer rays, which draws no quads");
     io::WorldOptions world = options.world;
     auto opened = TERRANE_TRY(io::openSessionParts(world, options.save, options.access));
     const auto textures = TERRANE_TRY(

@@ -46,6 +46,13 @@ int highestLayer(const Word* node) {
 
 // --- Words ---
 
+void noteWritten(Scene& scene, std::size_t first, std::size_t count) {
+    if (scene.written.size() * kWrittenBlock < scene.words.size())
+        scene.written.resize(scene.words.size() / kWrittenBlock + 1);
+    for (std::size_t block = first / kWrittenBlock; block <= (first + count - 1) / kWrittenBlock; ++block)
+        scene.written[block] = true;
+}
+
 std::size_t evenUp(std::size_t count) {
     return (count + 1) & ~std::size_t{1};
 }
@@ -58,11 +65,13 @@ Word allocate(Scene& scene, std::size_t count) {
         if (scene.freeWords[size].empty()) continue;
         const Word at = scene.freeWords[size].back();
         scene.freeWords[size].pop_back();
+        noteWritten(scene, at, 2 * half);
         if (size > half) scene.freeWords[size - half].push_back(at + static_cast<Word>(2 * half));
         return at;
     }
     const auto at = static_cast<Word>(scene.words.size());
     scene.words.resize(scene.words.size() + 2 * half);
+    noteWritten(scene, at, 2 * half);
     return at;
 }
 
@@ -120,6 +129,7 @@ void updateTop(Scene& scene, int before, int now) {
         }
     }
     scene.words[kRayTop] = static_cast<Word>(std::max(top, now));
+    noteWritten(scene, kRayTop, 1);
 }
 
 // Sets what is in the place of a tile, and for all tiles of higher levels that cover it whether others divide
@@ -131,6 +141,7 @@ void setEntry(Scene& scene, ChunkPos pos, Word what, Word heights) {
         const int before = entry[0] == kRayNothing ? scene.heights.bottom : rayTopOf(entry[1]);
         entry[0] = what;
         entry[1] = heights;
+        noteWritten(scene, static_cast<std::size_t>(entry - scene.words.data()), kRayEntryWords);
         if (pos.level == scene.levels - 1) {
             return updateTop(scene, before, what == kRayNothing ? scene.heights.bottom : rayTopOf(heights));
         }
@@ -273,6 +284,7 @@ Scene makeScene(world::Heights heights, int levels, int sideBits) {
             Word{0} - (Word{1} << (sideBits - 1));
     }
     scene.wordsInUse = scene.words.size();
+    noteWritten(scene, 0, scene.words.size());
     return scene;
 }
 
@@ -284,11 +296,14 @@ void moveScene(Scene& scene, ChunkPos center) {
         const auto oldY = static_cast<std::int32_t>(header(scene, level, kRayLowY));
         if (lowX == oldX && lowY == oldY) continue;
         for (std::int32_t y = oldY; y < oldY + side; ++y) {
+            const bool isRowInside = y >= lowY && y < lowY + side;
             for (std::int32_t x = oldX; x < oldX + side; ++x) {
-                if (x >= lowX && x < lowX + side && y >= lowY && y < lowY + side) continue;
-                removeTile(scene, {x, y, static_cast<std::uint8_t>(level)});
+                // The part of the row that stays is passed at once.
+                if (isRowInside && x >= lowX && x < lowX + side) x = std::min(lowX, oldX) + side;
+                if (x < oldX + side) removeTile(scene, {x, y, static_cast<std::uint8_t>(level)});
             }
         }
+        noteWritten(scene, 0, kRayHeaderWords);
         header(scene, level, kRayLowX) = static_cast<Word>(lowX);
         header(scene, level, kRayLowY) = static_cast<Word>(lowY);
     }
@@ -300,6 +315,16 @@ bool isInWindow(const Scene& scene, ChunkPos pos) {
 
 bool hasTile(const Scene& scene, ChunkPos pos) {
     return isInWindow(scene, pos) && isTile(scene.words[entryAt(scene, pos)]);
+}
+
+bool isFree(const Scene& scene, ChunkPos pos) {
+    if (!isInWindow(scene, pos) || scene.words[entryAt(scene, pos)] != kRayNothing) return false;
+    for (int level = pos.level + 1; level < scene.levels; ++level) {
+        const ChunkPos above{pos.x >> (level - pos.level), pos.y >> (level - pos.level),
+                             static_cast<std::uint8_t>(level)};
+        if (hasTile(scene, above)) return false;
+    }
+    return true;
 }
 
 void removeTile(Scene& scene, ChunkPos pos) {

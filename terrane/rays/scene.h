@@ -6,6 +6,7 @@
 // while nobody changes it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -55,7 +56,25 @@ struct Scene {
     // Free words, by half their number: nodes and columns take an even number of words.
     std::array<std::vector<std::uint32_t>, 1 + world::kMostSections / 2> freeWords;
     std::size_t wordsInUse = 0;
+    std::vector<bool> written;  // blocks of kWrittenBlock words that changed since takeWritten()
 };
+
+// Calls use(first, count) for the words that changed since the last call, in ascending order; at first for
+// all. For a copy of the words elsewhere.
+constexpr std::size_t kWrittenBlock = 256;
+template <class Use>
+void takeWritten(Scene& scene, const Use& use) {
+    const auto end = scene.written.end();
+    for (auto from = std::find(scene.written.begin(), end, true); from != end;
+         from = std::find(from, end, true)) {
+        const auto to = std::find(from, end, false);
+        const auto first = static_cast<std::size_t>(from - scene.written.begin()) * kWrittenBlock;
+        const auto last = static_cast<std::size_t>(to - scene.written.begin()) * kWrittenBlock;
+        use(first, std::min(last, scene.words.size()) - first);
+        std::fill(from, to, false);
+        from = to;
+    }
+}
 
 // Makes an empty scene for tiles of levels 0 … levels − 1 that are less than half of 2^sideBits from the
 // center: sideBits of 6 for view distances to 30, of 7 to 62, of 8 to 126 and details likewise.
@@ -73,6 +92,8 @@ void setTile(Scene& scene, world::ChunkPos pos, const ColumnCells& column);
 // Does nothing if the scene does not have it.
 void removeTile(Scene& scene, world::ChunkPos pos);
 bool hasTile(const Scene& scene, world::ChunkPos pos);
+// Returns whether the tile is inside the window and no tile covers a part of its place.
+bool isFree(const Scene& scene, world::ChunkPos pos);
 
 // Replaces one section of a tile that the scene has, after an edit.
 void setSection(Scene& scene, world::ChunkPos pos, int number, const SectionCells& cells);

@@ -26,6 +26,10 @@ const uint kVisibleLastFrameBinding = 5u;
 const uint kTestedMeshSectionsBinding = 6u;
 const uint kQuadsBinding = 7u;
 const uint kListedQuadsBinding = 2u;  // not with kVisibleBinding, which has the same number
+const uint kRayWordsBinding = 0u;     // of rays, in passes without culling: ray_scene.h
+const uint kRayBlocksBinding = 1u;    // ray_blocks.h
+const uint kRayTypesBinding = 2u;
+const uint kRayFormsBinding = 3u;
 const uint kDrawRecordsBinding = 6u;  // not with kTestedMeshSectionsBinding: OpenGL guarantees 8 bindings
 
 // Texture units

@@ -7,6 +7,12 @@
 #define PASS_LAYERS 1
 #define PASS_SHADOWS 2
 #define PASS_CORNERS 3
+#define PASS_RAYS 4
+
+// RAY_LAYER: the surfaces behind all blended faces; the first layer of these; the next one
+#define RAY_SURFACES 0
+#define RAY_FIRST_LAYER 1
+#define RAY_NEXT_LAYER 2
 
 // ALPHA_CLASS
 #define ALPHA_OPAQUE 0
@@ -17,6 +23,7 @@
 #define SHADOW_NONE 0
 #define SHADOW_HARD 1
 #define SHADOW_SOFT 2
+#define SHADOW_RAYS 3
 
 // LIGHT: far away, in air, LIGHT_SIMPLE reads one voxel
 #define LIGHT_CLASSIC 0

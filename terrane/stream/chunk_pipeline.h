@@ -43,6 +43,8 @@ class ChunkPipeline {
     // then.
     void setMeshOptions(const mesh::MeshOptions& options);
     const mesh::MeshOptions& meshOptions() const { return meshOptions_; }
+    // Selects who meshes whole chunks from now on.
+    void setMeshing(MeshPolicy meshing) { parts_.meshing = meshing; }
     // Returns the current blocks that the chunk is meshed from.
     mesh::MeshBlocks meshBlocks(world::ChunkPos pos) const;
     // Receives the results of workers, updates meshes and light after edits, and submits new work. Call it

@@ -117,13 +117,16 @@ struct TilePipeline::Results {
     }
 };
 
-MeshPtr makeTile(const TileParts& parts, ChunkPos pos, mesh::MergeMethod method) {
+TileMesh makeTile(const TileParts& parts, ChunkPos pos, std::optional<mesh::MergeMethod> method) {
     TERRANE_ZONE("make tile");
     thread_local mesh::MeshScratch scratch;
-    world::Chunk chunk = tileBlocks(parts, pos);
-    raiseDeepFloor(chunk, parts.blocks);
-    return std::make_shared<const mesh::ChunkMesh>(
-        mesh::meshTile(chunk, parts.blocks, {method, kMeshSectionHeight}, scratch));
+    auto chunk = std::make_shared<world::Chunk>(tileBlocks(parts, pos));
+    raiseDeepFloor(*chunk, parts.blocks);
+    MeshPtr mesh;
+    if (method)
+        mesh = std::make_shared<const mesh::ChunkMesh>(
+            mesh::meshTile(*chunk, parts.blocks, {*method, kMeshSectionHeight}, scratch));
+    return {pos, std::move(mesh), std::move(chunk)};
 }
 
 TilePipeline::TilePipeline(const TileParts& parts) : parts_(parts), results_(std::make_shared<Results>()) {}
@@ -133,7 +136,7 @@ TilePipeline::~TilePipeline() {
     parts_.jobs.waitIdle();
 }
 
-void TilePipeline::update(mesh::MergeMethod method) {
+void TilePipeline::update(std::optional<mesh::MergeMethod> method) {
     takeResults();
     if (std::exchange(method_, method) != method) invalidateAllTiles(table_);
     const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
@@ -174,9 +177,9 @@ void TilePipeline::submit(ChunkPos tile) {
         if (results->isOver) return;
         try {
             const auto start = std::chrono::steady_clock::now();
-            MeshPtr mesh = makeTile(parts, tile, method);
+            TileMesh made = makeTile(parts, tile, method);
             const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
-            results->add({number, {tile, std::move(mesh)}}, took.count());
+            results->add({number, std::move(made)}, took.count());
         } catch (...) {
             results->fail(std::current_exception());
         }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -39,14 +40,15 @@ struct TileParts {
 
 struct TileMesh {
     world::ChunkPos pos;
-    MeshPtr mesh;
+    MeshPtr mesh;            // null if none is asked for
+    world::ChunkPtr blocks;  // that it shows
 };
 
 // Receives tiles that have changed. Any thread may call it, also after the end of the pipeline.
 using TileListener = std::function<void(std::span<const world::ChunkPos>)>;
 
-// Makes the mesh of a tile. Any thread may call it. Throws if the level has no generator.
-MeshPtr makeTile(const TileParts& parts, world::ChunkPos pos, mesh::MergeMethod method);
+// Makes a tile and, with a method, its mesh. Any thread may call it. Throws if the level has no generator.
+TileMesh makeTile(const TileParts& parts, world::ChunkPos pos, std::optional<mesh::MergeMethod> method);
 
 class TilePipeline {
   public:
@@ -59,8 +61,8 @@ class TilePipeline {
     // Returns a listener. The pipeline makes the tiles of its calls again. It may outlive the pipeline.
     TileListener tileListener() const;
     // Receives the results of workers and submits new work. Call it each frame. It rethrows exceptions of
-    // workers.
-    void update(mesh::MergeMethod method);
+    // workers. Without a method tiles have no meshes.
+    void update(std::optional<mesh::MergeMethod> method);
     // Blocks until a worker may have finished a tile, or the time is over. Runs a job if there are no
     // threads.
     void waitForWorkers(std::chrono::milliseconds timeout);
@@ -97,7 +99,7 @@ class TilePipeline {
     std::vector<TileMesh> finished_;
     std::unordered_map<std::uint64_t, Job> jobs_;  // submitted and not finished, by number
     std::uint64_t jobCount_ = 0;
-    mesh::MergeMethod method_{};  // of the last update
+    std::optional<mesh::MergeMethod> method_;  // of the last update
     std::shared_ptr<Results> results_;
 };
 

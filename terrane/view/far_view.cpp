@@ -29,7 +29,10 @@ bool FarView::upload(std::chrono::steady_clock::time_point deadline) {
         if (tiles.empty()) return true;
         if (!tiles_.table().records.at(tiles.front().pos).isShown)
             renderer_.setShown(tiles.front().pos, false);
-        if (renderer_.setChunk(tiles.front().pos, *tiles.front().mesh)) continue;
+        const stream::TileMesh& tile = tiles.front();
+        if (renderer_.setBlocks(tile.pos, tile.blocks) &&
+            (!tile.mesh || renderer_.setChunk(tile.pos, *tile.mesh)))
+            continue;
         tiles_.putBack(std::move(tiles.front()));
         return false;
     }

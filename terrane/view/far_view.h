@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 
 #include "terrane/game/session.h"
 #include "terrane/render/frame/renderer.h"
@@ -33,7 +34,9 @@ class FarView {
     void invalidateAll() { tiles_.invalidateAll(); }
 
     // Receives finished tiles and submits new work.
-    void update() { tiles_.update(pipeline_.meshOptions().method); }
+    void update() {
+        tiles_.update(renderer_.readsQuads() ? std::optional(pipeline_.meshOptions().method) : std::nullopt);
+    }
     // Passes tiles to the renderer until the deadline. Returns false if there is no room for one.
     bool upload(std::chrono::steady_clock::time_point deadline);
     // Shows new tiles and hides replaced ones. While tiles load, it works at most every 15 ms, unless a shown

@@ -74,6 +74,7 @@ std::size_t WorldView::upload(double budgetSeconds) {
     const auto start = Clock::now();
     std::size_t count = 0;
     keepWithinBudget();
+    updateShownParts();
     do {
         const std::vector<stream::ChunkChange> changes = session_.pipeline().takeChanges(1);
         if (changes.empty()) break;
@@ -141,6 +142,19 @@ void WorldView::keepWithinBudget() {
     const std::size_t budget = renderer_.memoryBudget();
     if (used.total() <= budget || used.fixed() <= fixedBytes_) return;
     fixedBytes_ = used.fixed();
+    showAgain();
+}
+
+// What the renderer did not have before comes again.
+void WorldView::updateShownParts() {
+    if (shown_ == shownParts()) return;
+    shown_ = shownParts();
+    session_.pipeline().setMeshing(shown_.quads && !queue_ ? stream::MeshPolicy::Workers
+                                                           : stream::MeshPolicy::Caller);
+    showAgain();
+}
+
+void WorldView::showAgain() {
     session_.pipeline().hideAll();
     for (const world::ChunkPos pos : session_.pipeline().takeHidden()) hide(pos);
     renderer_.clearChunks();
@@ -161,6 +175,15 @@ void WorldView::show(const stream::ChunkChange& change) {
     far_.prepareChunk(change.pos);
     const auto setLight = [&] { return renderer_.setLight(change.pos, *change.light, change.bricks); };
     if (change.light && !makeRoomFor(change.pos, setLight)) return;
+    const auto setBlocks = [&] {
+        return renderer_.setBlocks(change.pos, session_.pipeline().meshBlocks(change.pos)[0]);
+    };
+    const bool hasBlocks = shown_.blocks && (change.mesh || change.needsMesh);
+    if (hasBlocks && !makeRoomFor(change.pos, setBlocks)) return;
+    if (!shown_.quads) {
+        if (hasBlocks) far_.setChunkReady(change.pos, true);
+        return;
+    }
     // An edited chunk that is queued or in flight is meshed again as a whole.
     if (change.needsMesh || (change.mesh && queue_ && queue_->contains(change.pos))) {
         queue_->add(change.pos);

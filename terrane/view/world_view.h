@@ -48,9 +48,11 @@ class WorldView {
           renderer_(renderer),
           far_(session, renderer),
           tints_(session, renderer),
-          land_(session, renderer) {
+          land_(session, renderer),
+          shown_(shownParts()) {
         renderer.setHeights(session.world().heights());
         renderer.setAirLevels(gen::airLevelsOf(session.store().identity().generator));
+        if (!shown_.quads) session.pipeline().setMeshing(stream::MeshPolicy::Caller);
     }
 
     // Meshes whole chunks on the GPU, within a time budget for each frame, for a session whose pipeline
@@ -91,6 +93,13 @@ class WorldView {
     void waitForWorkers(std::chrono::milliseconds timeout);
 
   private:
+    // What the renderer reads of chunks and tiles.
+    struct ShownParts {
+        bool quads = true, blocks = false;
+        bool operator==(const ShownParts&) const = default;
+    };
+    ShownParts shownParts() const { return {renderer_.readsQuads(), renderer_.readsBlocks()}; }
+    void updateShownParts();
     void show(const stream::ChunkChange& change);
     template <class Set>
     bool makeRoomFor(world::ChunkPos pos, const Set& set);
@@ -98,6 +107,7 @@ class WorldView {
     bool shortenHorizon();
     void moveView();
     void keepWithinBudget();
+    void showAgain();
     void noticeShortView();
     void hide(world::ChunkPos pos);
     void advanceQueue();
@@ -117,6 +127,7 @@ class WorldView {
     int requestedDistance_ = -1, viewDistance_ = -1;  // chunks; -1: no view yet
     std::size_t fixedBytes_ = 0;                      // when all chunks were removed last
     bool hasWarned_ = false, hasNoticed_ = false;
+    ShownParts shown_;  // as of the last upload
     std::optional<std::string> notice_;
 };
 

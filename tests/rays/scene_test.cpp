@@ -171,6 +171,59 @@ TEST(SceneTest, TheWindowMoves) {
     }
 }
 
+// Copies the words that changed to another place, as for shaders.
+void follow(Scene& scene, std::vector<std::uint32_t>& copy) {
+    copy.resize(scene.words.size());
+    takeWritten(scene, [&](std::size_t first, std::size_t count) {
+        std::copy_n(scene.words.begin() + static_cast<long>(first), count,
+                    copy.begin() + static_cast<long>(first));
+    });
+}
+
+TEST(SceneTest, ACopyFollowsAllChanges) {
+    std::mt19937 random(6);
+    RayWorld made = randomWorld(random, 2);
+    Scene scene = made.scene();
+    std::vector<std::uint32_t> copy;
+    follow(scene, copy);
+    ASSERT_EQ(copy, scene.words);
+    SectionCells cells;
+    for (int change = 0; change < 200; ++change) {
+        for (const auto& [pos, chunk] : made.tiles) {
+            if (random() % 4 != 0) continue;
+            const bool isThere = hasTile(scene, pos);
+            if (isThere && random() % 2 == 0) {
+                removeTile(scene, pos);
+            } else if (isThere) {
+                buildCells(cells, randomSection(random), kStops);
+                setSection(scene, pos, made.heights.firstSection(), cells);
+            } else if (isFree(scene, pos)) {
+                setTile(scene, pos, buildColumn(chunk, kStops));
+            }
+        }
+        if (change % 10 == 0) moveScene(scene, {made.center.x + change % 3, made.center.y});
+        follow(scene, copy);
+        ASSERT_EQ(copy, scene.words) << change;
+    }
+    std::size_t rest = 0;
+    takeWritten(scene, [&](std::size_t, std::size_t count) { rest += count; });
+    EXPECT_EQ(rest, 0u);
+}
+
+// A place is free inside the window, unless a tile of any level covers a part of it.
+TEST(SceneTest, OnlyUncoveredPlacesAreFree) {
+    Scene scene = makeScene({}, 3, 4);
+    const world::ChunkPos middle{1, 1, 1};
+    EXPECT_TRUE(isFree(scene, middle));
+    EXPECT_FALSE(isFree(scene, {8, 0, 1}));
+    setTile(scene, middle, buildColumn(world::Chunk(), kStops));
+    EXPECT_FALSE(isFree(scene, middle));
+    EXPECT_FALSE(isFree(scene, {2, 3, 0}));
+    EXPECT_FALSE(isFree(scene, {0, 0, 2}));
+    EXPECT_TRUE(isFree(scene, {0, 1, 1}));
+    EXPECT_TRUE(isFree(scene, {1, 0, 2}));
+}
+
 // Ids that no table has are of unknown blocks; sections that are not made consist of such.
 TEST(SceneTest, UnknownBlocksStopRays) {
     SectionCells cells;

@@ -24,7 +24,7 @@ class Tour : public gpu::GlTest {
         [[maybe_unused]] const auto& [samples, shading, light, shadows, shadowSize, soft, occlusion,
                                       depthOfField, fog, rays, bloom, clouds, animation, adaptation,
                                       filtering, alphaTest, water, layers, single, junctions, culling, backs,
-                                      scale, upscaling, draw] = o;
+                                      scale, upscaling, draw, surfaces] = o;
         o.msaaSamples = 1 << pick(3);
         o.shading = static_cast<Shading>(pick(4));
         o.light = static_cast<LightSampling>(pick(2));
@@ -50,6 +50,9 @@ class Tour : public gpu::GlTest {
         o.renderScale = pick(3) == 0 ? 25 + pick(200) : 100;
         o.upscaling = static_cast<Upscaling>(pick(4));
         o.draw = static_cast<DrawMethod>(pick(3));
+        // Rays have no quads whose corners could be shaded.
+        o.surfaces =
+            o.shading == Shading::Corners ? SurfaceMethod::Quads : static_cast<SurfaceMethod>(pick(2));
         return o;
     }
 

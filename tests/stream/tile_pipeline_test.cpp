@@ -50,7 +50,7 @@ TEST_F(TilePipelineTest, MakesWhatTheViewShows) {
     EXPECT_GT(shown_.size(), 100u);
     for (const ChunkPos pos : shown_) ASSERT_TRUE(meshes_.contains(pos));
     for (const auto& [pos, mesh] : meshes_) {
-        EXPECT_EQ(*mesh, *makeTile(parts_, pos, mesh::MergeMethod::Greedy)) << pos.x << ' ' << pos.y;
+        EXPECT_EQ(*mesh, *makeTile(parts_, pos, mesh::MergeMethod::Greedy).mesh) << pos.x << ' ' << pos.y;
     }
 }
 

@@ -46,7 +46,7 @@ class TileRowsTest : public testing::Test {
         } while (tiles.missing() > 0);
     }
 
-    MeshPtr meshOf(ChunkPos tile) { return makeTile(parts_, tile, mesh::MergeMethod::Greedy); }
+    MeshPtr meshOf(ChunkPos tile) { return makeTile(parts_, tile, mesh::MergeMethod::Greedy).mesh; }
 
     base::JobSystem jobs_{2};
     gen::LevelGenerators generators_{
@@ -146,7 +146,7 @@ TEST_F(TileRowsTest, AnotherMergingMethodReachesAllTiles) {
     settle(tiles);
     settle(tiles, mesh::MergeMethod::None);
     for (const auto& [pos, mesh] : meshes_)
-        EXPECT_EQ(*mesh, *makeTile(parts_, pos, mesh::MergeMethod::None)) << pos.x << ',' << pos.y;
+        EXPECT_EQ(*mesh, *makeTile(parts_, pos, mesh::MergeMethod::None).mesh) << pos.x << ',' << pos.y;
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-enum class RendererKind : std::uint8_t { Quads, Path };
+enum class RendererKind : std::uint8_t { Quads, Rays, Path };
 
 struct PathOptions {
     int bounces = path::TraceOptions().bounces;
@@ -155,6 +155,7 @@ struct RendererFormat {
 const std::vector<RendererFormat>& rendererFormats() {
     static const std::vector<RendererFormat> formats{
         {RendererKind::Quads, "--renderer quads", {"--seconds", "--frames", "--view"}},
+        {RendererKind::Rays, "--renderer rays", {"--seconds", "--frames", "--view"}},
         {RendererKind::Path, "--renderer path", {"--bounces", "--lens", "--focus", "--denoise", "--resume"}}};
     return formats;
 }
@@ -170,7 +171,7 @@ base::Result<void> checkRenderer(const CLI::App& command, const RenderCommandOpt
         if (format.kind == options.renderer)
             TERRANE_TRY(checkFormatOptions(command, rendererFormats(), format));
     if (!isExr(options.output)) return {};
-    if (options.renderer == RendererKind::Quads)
+    if (options.renderer != RendererKind::Path)
         return base::fail(base::ErrorCode::BadInput, "{}: only --renderer path writes EXR files",
                           options.output);
     if (!path::hasExr())
@@ -256,17 +257,24 @@ base::Result<void> traceImage(const RenderCommandOptions& options, view::Offscre
     return {};
 }
 
-// The rasterizer has a few numbers of samples.
+// The options of this command that are graphics options of others. All but the path tracer have a few numbers
+// of samples.
 base::Result<render::GraphicsChoices> graphicsChoices(const RenderCommandOptions& options) {
     render::GraphicsChoices choices = options.graphics.choices;
-    if (options.renderer != RendererKind::Quads || !options.samples) return choices;
+    if (options.renderer == RendererKind::Path) return choices;
     const auto table = render::graphicsTable();
-    const auto row = std::ranges::find(table, "samples", &render::GraphicsRow::name);
-    const auto choice = render::choiceOf(*row, std::to_string(*options.samples));
-    if (!choice)
-        return base::fail(base::ErrorCode::BadInput, "--samples: {} is not one of {} of --renderer quads",
-                          *options.samples, render::valueNamesOf(*row));
-    choices.changed.emplace_back(row - table.begin(), *choice);
+    const auto choose = [&](std::string_view name, const std::string& value) -> base::Result<void> {
+        const auto row = std::ranges::find(table, name, &render::GraphicsRow::name);
+        const auto choice = render::choiceOf(*row, value);
+        if (!choice)
+            return base::fail(base::ErrorCode::BadInput,
+                              "--{}: {} is not one of {} of --renderer quads and rays", name, value,
+                              render::valueNamesOf(*row));
+        choices.changed.emplace_back(row - table.begin(), *choice);
+        return {};
+    };
+    if (options.renderer == RendererKind::Rays) TERRANE_TRY(choose("renderer", "rays"));
+    if (options.samples) TERRANE_TRY(choose("samples", std::to_string(*options.samples)));
     return choices;
 }
 
@@ -324,16 +332,18 @@ base::Result<void> renderImage(const CLI::App& command, const RenderCommandOptio
 }
 
 void addRendererOptions(CLI::App& command, RenderCommandOptions& options) {
+    command.remove_option(command.get_option("--renderer"));
     addChoice(
         command, "--renderer", options.renderer,
-        {{"quads", RendererKind::Quads}, {"path", RendererKind::Path}},
-        "What draws: the rasterizer, or a path tracer, which is slow and follows light over many bounces");
+        {{"quads", RendererKind::Quads}, {"rays", RendererKind::Rays}, {"path", RendererKind::Path}},
+        "What finds visible surfaces: the rasterizer, or one ray for each sample; or a path tracer, which "
+        "is slow and follows light over many bounces");
     PathOptions& path = options.path;
     command.remove_option(command.get_option("--samples"));
     command
         .add_option(
             "--samples", options.samples,
-            "Samples of each pixel. Rasterizer: 1, 2, 4 or 8, by default the preset's. Path tracer: paths, "
+            "Samples of each pixel. Quads, rays: 1, 2, 4 or 8, by default the preset's. Path tracer: paths, "
             "any number, by default 64")
         ->check(numberFrom(1, 1 << 24));
     command

@@ -71,7 +71,7 @@ void main() {
     vec3 normal = normalOf(direction), mean = unpackUnorm4x8(q.material.meanColor).rgb;
     if (direction < kDirectionPlant && dot(normal, toPoint) > 0.0) normal = -normal;
     uint mode = lookAlphaMode(q.material.look);
-    outTexel = vec3(texelOf(q.quad, q.face, q.corner) * extentOf(face), float(lookTexture(q.material.look)));
+    outTexel = vec3(texelOf(quadShapeFace(q.quad), q.face, q.corner) * extentOf(face), float(lookTexture(q.material.look)));
 #if ALPHA_CLASS == ALPHA_BLENDED
     if (lookAnimation(q.material.look) == kAnimationLiquidSurface) {
         shadeWaterCorner(mean, normal, levels, toPoint);

@@ -293,7 +293,8 @@ std::vector<CullPass::Draw> CullPass::readDraws(shared::uint list, std::size_t a
 
 // Culling within a frame: everything in view at once, or with occlusion culling what was visible in the frame
 // before, then what its depth does not hide.
-MaybePass makeCull(FrameBuilder&) {
+MaybePass makeCull(FrameBuilder& build) {
+    if (build.options().surfaces == SurfaceMethod::Rays) return std::nullopt;
     return Pass{.record =
                     [](FrameContext& context) {
                         const CullPhase phase = context.cullsOccluded() ? CullPhase::Early : CullPhase::All;

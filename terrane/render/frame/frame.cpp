@@ -162,7 +162,7 @@ base::Result<void> FrameBuilder::makeSharedTargets() {
 }
 
 base::Result<void> FrameBuilder::makeShadowMap() {
-    if (!castsShadows(options())) return {};
+    if (!hasShadowMap(options())) return {};
     const int cascades =
         options().shadows == ShadowReach::Near ? 1 : static_cast<int>(shared::kShadowCascades);
     const ShadowMap::Shape shape{cascades, options().shadowSize};

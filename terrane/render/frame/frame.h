@@ -29,6 +29,7 @@
 #include "terrane/render/frame/target.h"
 #include "terrane/render/frame/variants.h"
 #include "terrane/render/quads/light_store.h"
+#include "terrane/render/rays/ray_store.h"
 #include "terrane/render/shadow/shadow_map.h"
 #include "terrane/render/sky/sky_texture.h"
 
@@ -50,6 +51,7 @@ struct FrameContext {
     MeshSectionTable& meshSections;
     CullPass& cull;
     const FigurePass& figures;
+    const RayStore& rays;
     const gpu::VertexArray& fullscreen;  // without attributes
     gpu::TextureSet worldTextures = {};  // that shaders of surfaces read: light, noise, sky, land, tint
     CullInput culling;

@@ -74,6 +74,10 @@ constexpr Preset thesis() {
 }  // namespace
 
 RenderOptions drawnOptions(RenderOptions options) {
+    if (options.surfaces == SurfaceMethod::Rays) {
+        options.occlusionCulling = false;
+        options.tJunctions = TJunctions::Open;
+    }
     if (options.shading != Shading::Corners) return options;
     options.msaaSamples = 1;
     options.light = LightSampling::Classic;
@@ -132,6 +136,7 @@ GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view nam
                               preset->viewDistance.value_or(before.viewDistance),
                               preset->horizon.value_or(before.horizon), preset->detail};
     settings.render.draw = before.render.draw;
+    settings.render.surfaces = before.render.surfaces;
     settings.render.renderScale = before.render.renderScale;
     settings.render.upscaling = before.render.upscaling;
     return settings;

@@ -40,6 +40,13 @@ enum class ShadowReach : std::uint8_t {
     Near,     // 50 blocks
     Far,      // 800 blocks
     Horizon,  // as far as land is visible
+    Rays,     // the same, by one ray for each shaded point: docs/rays.md
+};
+
+// How visible surfaces are found.
+enum class SurfaceMethod : std::uint8_t {
+    Quads,  // drawn by the rasterizer
+    Rays,   // one ray for each sample: docs/rays.md
 };
 
 // Who selects the draws, and how they reach the driver: docs/rendering.md, Draw calls.
@@ -81,14 +88,15 @@ struct RenderOptions {
     bool occlusionCulling = true;  // of mesh sections behind others
     bool leafBacks = true;         // back sides of leaves, seen through holes; with occlusion culling
     int renderScale = 100;         // size of the drawn image, percent of the screen's: no preset sets it
-    Upscaling upscaling = Upscaling::Auto;  // no preset sets it
-    DrawMethod draw = DrawMethod::Auto;     // no preset sets it
+    Upscaling upscaling = Upscaling::Auto;          // no preset sets it
+    DrawMethod draw = DrawMethod::Auto;             // no preset sets it
+    SurfaceMethod surfaces = SurfaceMethod::Quads;  // no preset sets it
 
     bool operator==(const RenderOptions&) const = default;
 };
 
 // Returns the options without those that have no effect together with others: shading at corners has no
-// G-buffer that shadows, clouds and effects could read.
+// G-buffer that shadows, clouds and effects could read, and rays cull nothing and leave no cracks.
 RenderOptions drawnOptions(RenderOptions options);
 
 constexpr int kDefaultDetail = 12;

@@ -57,6 +57,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.quadSizes_ = quads;
     renderer.clearChunks();
     renderer.shaders_ = &shaders;
+    renderer.blocks_ = std::make_shared<const world::BlockRegistry>(blocks);
     renderer.device_ = device;
     renderer.textureLimits_ = limits;
     return renderer;
@@ -102,12 +103,20 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
     if (upscaling == Upscaling::Auto) upscaling = device_.software ? Upscaling::Linear : Upscaling::Edges;
     const bool isLoop = !device_.indirectDraws || (options.draw == DrawMethod::Auto && device_.software) ||
                         options.draw == DrawMethod::Loop;
+    if (options.surfaces == SurfaceMethod::Rays && options.shading == Shading::Corners)
+        return base::fail(base::ErrorCode::BadInput,
+                          "rays find surfaces without quads, at whose corners they could be shaded: choose "
+                          "another shading or preset than corners and minimal");
     const FrameSpec before = frame_.spec;
     TERRANE_TRY(rebuild(
         {drawn, size, options, features(), isLoop ? DrawMethod::Loop : DrawMethod::Indirect, upscaling}));
     const auto lit = useCornerLight(options.shading == Shading::Corners);
-    if (!lit) TERRANE_TRY(rebuild(before));
-    return lit;
+    if (!lit) {
+        TERRANE_TRY(rebuild(before));
+        return lit;
+    }
+    if (readsBlocks() != rays_.isUsed()) makeRays(readsBlocks());
+    return {};
 }
 
 base::Result<void> Renderer::reloadShaders() {
@@ -199,6 +208,7 @@ FrameContext Renderer::prepare(const FrameInput& input) {
                          .meshSections = meshSections_,
                          .cull = cull_,
                          .figures = figures_,
+                         .rays = rays_,
                          .fullscreen = fullscreen_,
                          .culling = cullInput(input, view),
                          .hasShadows = isShadowed,
@@ -220,11 +230,12 @@ void Renderer::draw(const FrameInput& input) {
     ring_.beginFrame();
     pipeline_.invalidate();
     lightCorners(input.maxLitChunks);
+    if (rays_.isUsed()) rays_.update(cameraChunk(input.camera));
     FrameContext context = prepare(input);
     recordPasses(context, timer_);
     pipeline_.set({});  // code outside may clear depths
     gpu::Program::useNone();
-    cull_.endFrame();
+    if (frame_.drawn.surfaces == SurfaceMethod::Quads) cull_.endFrame();
     ring_.endFrame();
 }
 
@@ -266,6 +277,7 @@ std::size_t lightShare(std::size_t bytes) {
 GpuMemory Renderer::memory() const {
     return {.quads = quads_.bufferBytes(),
             .light = light_.textureBytes(),
+            .rays = rays_.gpuBytes(),
             .meshSections = meshSections_.gpuBytes() + cull_.gpuBytes(meshSections_, frame_.spec.draw),
             .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes() +
                         land_.gpuBytes(),
@@ -293,6 +305,7 @@ void Renderer::shareBudget() {
     const std::size_t room = budgetBytes_ - std::min(budgetBytes_, taken);
     quads_.setMaxBytes(used.quads + room);
     light_.setMaxBytes(used.light + room);
+    rays_.setMaxBytes(used.rays + room);
 }
 
 void Renderer::notePeak() {
@@ -305,7 +318,20 @@ void Renderer::showQuads(world::ChunkPos pos, const mesh::MeshSectionSet& change
     if (!hidden_.contains(pos)) meshSections_.set(pos, quads_.meshSectionsOf(pos), changed);
 }
 
+void Renderer::makeRays(bool isUsed) {
+    rays_ = isUsed ? RayStore(*blocks_, heights_, viewDistance_) : RayStore();
+    for (const world::ChunkPos pos : hidden_)
+        if (isUsed) rays_.setShown(pos, false);
+}
+
+bool Renderer::setBlocks(world::ChunkPos pos, world::ChunkPtr blocks) {
+    if (!rays_.isUsed()) return true;
+    shareBudget();
+    return rays_.set(pos, std::move(blocks));
+}
+
 void Renderer::setShown(world::ChunkPos pos, bool isShown) {
+    if (rays_.isUsed()) rays_.setShown(pos, isShown);
     if (isShown) {
         if (hidden_.erase(pos) > 0) showQuads(pos, mesh::kAllMeshSections);
     } else if (hidden_.insert(pos).second) {
@@ -340,6 +366,7 @@ bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
     } else {
         readWritten(pos);
     }
+    if (!readsQuads()) return true;
     shareBudget();
     const bool hasRoom = setQuads(pos, mesh, meshSections);
     notePeak();
@@ -431,6 +458,7 @@ bool Renderer::setLight(world::ChunkPos pos, const light::ChunkLight& light,
 }
 
 void Renderer::removeChunk(world::ChunkPos pos) {
+    if (rays_.isUsed()) rays_.remove(pos);
     meshSections_.remove(pos);
     hidden_.erase(pos);
     quads_.remove(pos);
@@ -441,6 +469,7 @@ void Renderer::removeChunk(world::ChunkPos pos) {
 
 void Renderer::setViewDistance(int chunks) {
     viewDistance_ = chunks;
+    if (rays_.isUsed()) rays_.setViewDistance(chunks);
     light_ = {};  // before the new one takes memory
     std::size_t mostBytes = SIZE_MAX;
     if (budgetBytes_ != SIZE_MAX) {
@@ -457,6 +486,7 @@ void Renderer::clearChunks() {
     cornerLit_ = {};
     setAllQuads(quadSizes_.hasLight, {});
     hidden_.clear();
+    makeRays(rays_.isUsed());
     setViewDistance(viewDistance_);
 }
 

@@ -17,6 +17,7 @@
 #include "terrane/render/quads/block_textures.h"
 #include "terrane/render/quads/corner_lit_chunks.h"
 #include "terrane/render/quads/light_store.h"
+#include "terrane/render/rays/ray_store.h"
 #include "terrane/render/sky/sky_texture.h"
 
 namespace terrane::render {
@@ -67,6 +68,13 @@ class Renderer {
         return quads_.meshSectionsOf(pos);
     }
     gpu::ArenaBuffers quadBuffers() const { return quads_.buffers(); }  // until the next change
+    // Return what frames with the current options need of chunks and tiles. When that changes, all of them
+    // come again.
+    bool readsQuads() const { return render::readsQuads(options()); }    // setChunk(), reserveChunk()
+    bool readsBlocks() const { return render::readsBlocks(options()); }  // setBlocks()
+    // Sets the blocks of a chunk or tile, not null, if frames need them. Returns false if there is no room
+    // within the budget: it is not shown then.
+    bool setBlocks(world::ChunkPos pos, world::ChunkPtr blocks);
     // Sets the light of a chunk of level 0, within `viewDistance` of setViewDistance(). Chunks without light
     // are drawn as under the open sky. Result: see LightStore.
     bool setLight(world::ChunkPos pos, const light::ChunkLight& light);
@@ -139,6 +147,7 @@ class Renderer {
     void readWritten(world::ChunkPos pos);
     void lightCorners(int maxChunks);
     base::Result<void> useCornerLight(bool isUsed);
+    void makeRays(bool isUsed);
     bool setQuads(world::ChunkPos pos, const mesh::ChunkMesh& mesh, const mesh::MeshSectionSet& meshSections);
     using ChunkMeshes = std::vector<std::pair<world::ChunkPos, mesh::ChunkMesh>>;
     bool setAllQuads(bool isLit, const ChunkMeshes& meshes);
@@ -151,6 +160,7 @@ class Renderer {
     MeshSectionTable meshSections_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> hidden_;  // chunks that are not shown
     LightStore light_;
+    RayStore rays_;
     CornerLitChunks cornerLit_;  // has meshes while the quads have light
     std::unordered_set<world::ChunkPos, world::ChunkPosHash>
         unread_;  // chunks whose quads a shader writes, to be lit
@@ -170,6 +180,7 @@ class Renderer {
     SkyTexture sky_;
 
     const gpu::ShaderLoader* shaders_ = nullptr;
+    std::shared_ptr<const world::BlockRegistry> blocks_;
     gpu::DeviceInfo device_;
     TextureLimits textureLimits_;
     QuadStoreSizes quadSizes_;

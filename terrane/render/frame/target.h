@@ -47,9 +47,11 @@ void copyTarget(const Target& from, const Target& to, glm::ivec2 corner, glm::iv
 // Returns whether a frame takes the short path: if no later pass reads the linear scene, sky, surfaces and
 // layers are drawn directly as the screen shows them, without the scene and the final pass. `samples` are
 // those of a pixel, as the driver has them. With one sample and no clouds surfaces need no sky drawn behind
-// them, and layers are shaded together with the surface behind. Reflected shores read the scene.
+// them, and layers are shaded together with the surface behind. Reflected shores read the scene, and so do
+// layers that are not drawn as quads.
 constexpr bool isDirectImage(const RenderOptions& o, int samples) {
-    return samples == 1 && !o.clouds && !o.godRays && !o.bloom && !o.depthOfField &&
+    const bool drawsLayers = o.surfaces == SurfaceMethod::Rays && o.transparencyLayers > 0;
+    return samples == 1 && !drawsLayers && !o.clouds && !o.godRays && !o.bloom && !o.depthOfField &&
            o.occlusion == Occlusion::Off && o.singleTransparencyLayer == 0 &&
            (o.water == Water::Plain || o.transparencyLayers == 0);
 }

@@ -56,7 +56,8 @@ std::vector<Variant> withSun(const std::vector<Variant>& variants) {
                                     {ShadowEdges::Hard, false},
                                     {ShadowEdges::Hard, true},
                                     {ShadowEdges::Soft, false},
-                                    {ShadowEdges::Soft, true}};
+                                    {ShadowEdges::Soft, true},
+                                    {ShadowEdges::Rays, false}};
     std::vector<Variant> all;
     for (const SunVariant& sun : kSuns) {
         for (Variant variant : variants) {
@@ -80,12 +81,26 @@ bool castsShadows(const RenderOptions& options) {
            options.shading != Shading::Corners;
 }
 
+bool hasShadowMap(const RenderOptions& options) {
+    return castsShadows(options) && options.shadows != ShadowReach::Rays;
+}
+
+bool readsQuads(const RenderOptions& options) {
+    return options.surfaces == SurfaceMethod::Quads || hasShadowMap(options);
+}
+
+bool readsBlocks(const RenderOptions& options) {
+    return options.surfaces == SurfaceMethod::Rays ||
+           (castsShadows(options) && options.shadows == ShadowReach::Rays);
+}
+
 bool readsLand(const RenderOptions& options) {
     return castsShadows(options) && options.shadows == ShadowReach::Horizon;
 }
 
 SunVariant SunVariant::of(const RenderOptions& options, const QuadFeatures& features) {
     if (!castsShadows(options)) return {};
+    if (options.shadows == ShadowReach::Rays) return {ShadowEdges::Rays, false};
     return {options.softShadows ? ShadowEdges::Soft : ShadowEdges::Hard,
             features.hasLand && readsLand(options)};
 }
@@ -183,6 +198,7 @@ gpu::ShaderDefines TransparencyVariant::defines() const {
                     {"QUADS", drawsQuads},
                     {"DIRECT", isDirect},
                     {"OVER_SKY", !isDirect},
+                    {"SMOOTH", 0},
                     {"FACE_SAMPLING", 0},
                     {"TINT", 0},
                     {"WATER_DETAIL", hasWaterDetail},
@@ -206,6 +222,23 @@ std::vector<TransparencyVariant> TransparencyVariant::all() {
     });
 }
 
+gpu::ShaderDefines RayVariant::defines() const {
+    return defined({{"PASS", PASS_RAYS},
+                    {"RAY_LAYER", number(layer)},
+                    {"MSAA_SAMPLES", samples},
+                    {"SMOOTH", isSmooth},
+                    {"FACE_SAMPLING", hasFaceSampling},
+                    {"TINT", hasTint}});
+}
+
+std::vector<RayVariant> RayVariant::all() {
+    auto variants = with(withSamples<RayVariant>(), &RayVariant::layer,
+                         {RayLayer::Surfaces, RayLayer::First, RayLayer::Next});
+    variants = only(with(variants, &RayVariant::isSmooth),
+                    [](const RayVariant& v) { return v.isSmooth || v.layer == RayLayer::Surfaces; });
+    return with(with(variants, &RayVariant::hasFaceSampling), &RayVariant::hasTint);
+}
+
 gpu::ShaderDefines ShadeVariant::defines() const {
     return defined({{"MSAA_SAMPLES", samples},
                     {"PER_SAMPLE", isPerSample},
@@ -216,7 +249,10 @@ gpu::ShaderDefines ShadeVariant::defines() const {
                     {"OVER_SKY", isOverSky},
                     {"DIRECT", isDirect},
                     {"UNDER_WATER", isUnderWater},
-                    {"FAR", isFar}});
+                    {"FAR", isFar},
+                    {"PASS", PASS_RAYS},
+                    {"SMOOTH", 0},
+                    {"FACE_SAMPLING", 0}});
 }
 
 // With several samples a pixel, surfaces are shaded over the sky, and in air distant pixels have shaders of
@@ -389,6 +425,7 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
         {"quads/gbuffer.frag", [] { return definesOf(GBufferVariant::all()); }},
         {"shadow/shadow.frag", [] { return definesOf(ShadowVariant::all()); }},
         {"shading/depth_peel.frag", [] { return definesOf(PeelVariant::all()); }},
+        {"rays/rays.frag", [] { return definesOf(RayVariant::all()); }},
         {"shading/transparency.frag", [] { return definesOf(TransparencyVariant::all()); }},
         {"shading/shade.frag", [] { return definesOf(ShadeVariant::all()); }},
         {"shading/pixel_mask.frag", [] { return definesOf(MaskVariant::all()); }},

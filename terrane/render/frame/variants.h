@@ -22,7 +22,12 @@ struct QuadFeatures {
     bool operator==(const QuadFeatures&) const = default;
 };
 
-enum class ShadowEdges : std::uint8_t { None = SHADOW_NONE, Hard = SHADOW_HARD, Soft = SHADOW_SOFT };
+enum class ShadowEdges : std::uint8_t {
+    None = SHADOW_NONE,
+    Hard = SHADOW_HARD,
+    Soft = SHADOW_SOFT,
+    Rays = SHADOW_RAYS
+};
 enum class LightDetail : std::uint8_t {
     Classic = LIGHT_CLASSIC,
     Smooth = LIGHT_SMOOTH,
@@ -39,6 +44,10 @@ enum class QuadPass : std::uint8_t {
 // land.
 bool readsLand(const RenderOptions& options);
 bool castsShadows(const RenderOptions& options);
+bool hasShadowMap(const RenderOptions& options);  // else shadows are found by rays, or there are none
+// Return whether quads are drawn, and whether rays are cast, with these options.
+bool readsQuads(const RenderOptions& options);
+bool readsBlocks(const RenderOptions& options);
 
 // Light of sun and moon in shading.
 struct SunVariant {
@@ -91,6 +100,22 @@ struct PeelVariant {
 
     gpu::ShaderDefines defines() const;
     static std::vector<PeelVariant> all();
+};
+
+enum class RayLayer : std::uint8_t {
+    Surfaces = RAY_SURFACES,  // behind all blended faces
+    First = RAY_FIRST_LAYER,
+    Next = RAY_NEXT_LAYER
+};
+// rays/rays.frag.glsl
+struct RayVariant {
+    RayLayer layer = RayLayer::Surfaces;
+    int samples = 1;
+    bool isSmooth = false;
+    bool hasFaceSampling = false, hasTint = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<RayVariant> all();
 };
 
 struct TransparencyVariant {

@@ -1,11 +1,15 @@
 // The texture of a face at a point. Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
 // FACE_SAMPLING: 1 if some faces wrap or filter their textures in their own way, or have textures smaller than the
-// array (block_textures.h). Otherwise the shader is shorter.
+// array (block_textures.h). Otherwise the shader is shorter. PASS: see shared/variants.h.
 layout(binding = kBlockTexturesUnit) uniform sampler2DArray blockTextures;
 #if FACE_SAMPLING == 1
 layout(binding = kSmoothTexturesUnit) uniform sampler2DArray smoothTextures;
 layout(binding = kNearestTexturesUnit) uniform sampler2DArray nearestTextures;
+#if PASS == PASS_RAYS
+uint inSampling;
+#else
 layout(location = 2) flat in uint inSampling;  // of the material's options
+#endif
 #else
 const uint inSampling = 0u;
 #endif
@@ -53,7 +57,7 @@ vec4 sharpTexture(sampler2DArray textures, uint face, vec2 inTextures, vec2 dx, 
 // SMOOTH 1: sharp filtering; 0 takes the nearest texel and costs a third. dx, dy: derivatives of the coordinates before
 // clamping.
 vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
-#if SMOOTH == 0 && MSAA_SAMPLES <= 1
+#if SMOOTH == 0 && MSAA_SAMPLES <= 1 && PASS != PASS_RAYS
     // Cheaper, and the same result if no neighboring pixel was discarded and the coordinates are those of the face.
     vec4 nearest = texture(blockTextures, vec3(inTextures, textureOf(face)));
 #endif
@@ -64,7 +68,7 @@ vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
 #endif
 #if SMOOTH == 1
     return sharpTexture(blockTextures, face, inTextures, dx, dy);
-#elif MSAA_SAMPLES <= 1
+#elif MSAA_SAMPLES <= 1 && PASS != PASS_RAYS
     return nearest;
 #else
     return textureGrad(blockTextures, vec3(inTextures, textureOf(face)), dx, dy);

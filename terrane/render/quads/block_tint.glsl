@@ -1,10 +1,10 @@
-// The tint of a fragment, or with PASS_CORNERS of a vertex: the color of its place from the generator changes the texture of a tinted face.
+// The tint of a fragment, or with PASS_CORNERS of a vertex, with PASS_RAYS of a pixel: the color of its place from the generator changes the texture of a tinted face.
 // TINT: 1 if the world has a tint (tint_textures.h). Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
 #if TINT == 1
 #include "terrane/shared/tint.h"
 
 layout(binding = kTintUnit) uniform sampler2DArray tints;
-#if PASS == PASS_CORNERS
+#if PASS == PASS_CORNERS || PASS == PASS_RAYS
 #define inTintAt outTintAt
 #define inTintShare outTintShare
 #define inTintLevels outTintLevels

@@ -1,6 +1,7 @@
 // Draws opaque and alpha-tested quads into the G-buffer, or shaded at their corners into the image.
 #include "terrane/render/corners/corners.h"
 #include "terrane/render/frame/frame.h"
+#include "terrane/render/rays/rays_pass.h"
 
 namespace terrane::render {
 namespace {
@@ -49,6 +50,7 @@ MaybePass makeQuads(FrameBuilder& build, bool isFirst) {
 }  // namespace
 
 MaybePass makeSurfaces(FrameBuilder& build) {
+    if (build.options().surfaces == SurfaceMethod::Rays) return makeRaySurfaces(build);
     return makeQuads(build, true);
 }
 

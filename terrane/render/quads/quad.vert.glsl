@@ -18,10 +18,6 @@ const float kWaveSink = 0.14;
 // Layers are peeled by comparing depths of two programs.
 invariant gl_Position;
 
-// Faces of a liquid are this many blocks inside of it: those against glass would share a plane with the glass, and
-// which of the two is nearer would change from pixel to pixel.
-const float kLiquidInset = 1.0 / 1024.0;
-
 layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
 layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number of the quad's own
 #if FACE_SAMPLING == 1
@@ -60,5 +56,5 @@ void main() {
 #if TINT == 1
     setTintPlace(q.cellBlocks.xy * q.cell.xy + chunkCorner(q.chunk, q.level, frame.cameraChunk), position.xy);
 #endif
-    outTexel = texelOf(q.quad, q.face, q.corner) * extentOf(outFace.x);
+    outTexel = texelOf(quadShapeFace(q.quad), q.face, q.corner) * extentOf(outFace.x);
 }

@@ -1,15 +1,13 @@
-// Quads, their shapes and materials for vertex shaders. A quad has four vertices, counted from 0 in each draw; its base
+// Quads for vertex shaders. A quad has four vertices, counted from 0 in each draw; its base
 // instance selects its record. PASS: see shared/variants.h. Needs frame_uniforms.glsl.
 #include "terrane/render/frame/edge_expansion.glsl"
 #include "terrane/render/quads/waves.glsl"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/shared/shape_face.h"
-#include "terrane/render/quads/packed_face.glsl"
+#include "terrane/render/quads/shape_tables.glsl"
 
 layout(binding = kQuadsUnit) uniform usamplerBuffer quads;
-layout(binding = kShapeFacesUnit) uniform samplerBuffer shapeFaces;  // four texels a face
-layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
 layout(location = kDrawRecordAttribute) in ivec4 drawRecord;  // DrawRecord
 
@@ -32,42 +30,9 @@ Quad quadOf(int number) {
     return Quad(words.x, words.y);
 }
 
-// Only faces of models have a bend: others do without the fourth read. The surface of a liquid is as high as its
-// material says, and lower where it flows.
-ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
-    uint number = quadShapeFace(quad);
-    int first = 4 * int(number);
-    ShapeFace face = ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1),
-                               texelFetch(shapeFaces, first + 2), flatBend());
-    if (number >= kShapeFaceCount) face.bend = texelFetch(shapeFaces, first + 3);
-    float low = face.base.z, high = low + face.axisV.z;
-    float lowShare = surfaceShareOf(face.base), highShare = surfaceShareOf(face.axisV);
-    if (lowShare > 0.0) low = lowShare * optionsSurfaceHeight(material.options);
-    if (highShare > 0.0) high = highShare * optionsSurfaceHeight(material.options);
-    if (lowShare + highShare > 0.0) {
-        face.base.z = low;
-        face.axisV.z = high - low;
-    }
-    return face;
-}
-
 // Height of a corner on the surface of a liquid, as a share of the surface's height; 0 if it is not on it.
 float surfaceShare(ShapeFace face, vec2 corner) {
     return surfaceShareOf(corner.y == 1.0 ? face.axisV : face.base);
-}
-
-// Texture coordinates in the quad, 0 to 1. The side of a flowing liquid shows the part of the texture at its height,
-// which the material decides.
-vec2 texelOf(Quad quad, ShapeFace face, vec2 corner) {
-    vec2 texel = shapeFaceTexel(face, corner);
-    uint number = quadShapeFace(quad);
-    if (number >= kShapeFaceFlowSide && number < kShapeFaceCount) texel.y = 1.0 - (face.base.z + face.axisV.z * corner.y);
-    return texel;
-}
-
-MaterialRecord materialOf(Quad quad) {
-    uvec4 words = texelFetch(materials, int(quadMaterial(quad)));
-    return MaterialRecord(words.x, words.y, words.z, words.w);
 }
 
 struct QuadCorner {
@@ -91,8 +56,8 @@ QuadCorner pulledCorner(int vertex) {
     q.extent = vec2(quadExtentU(q.quad), quadExtentV(q.quad));
     uint place = uint(drawRecord.z);
     q.cell = vec4(quadX(q.quad), quadY(q.quad), int(quadZ(q.quad)) + placeBase(place), 0.0);
-    q.material = materialOf(q.quad);
-    q.face = shapeFaceOf(q.quad, q.material);
+    q.material = materialOf(quadMaterial(q.quad));
+    q.face = shapeFaceOf(quadShapeFace(q.quad), q.material);
     q.chunk = drawRecord.xy;
     q.level = placeLevel(place);
     q.cellBlocks = vec3(vec2(columnBlocks(q.level)), 1.0);

@@ -95,10 +95,7 @@ void QuadResources::bindTables() const {
     materialTexels_.bind(shared::kMaterialsUnit);
 }
 
-void QuadResources::bind(const gpu::Buffer& drawRecords, bool isSmooth) {
-    bindTables();
-    vertexArray_.setInstanceIntegers(shared::kDrawRecordAttribute, drawRecords,
-                                     sizeof(shared::DrawRecord) / sizeof(GLint), sizeof(shared::DrawRecord));
+void QuadResources::bindTextures(bool isSmooth) const {
     textures_.array.bind(shared::kBlockTexturesUnit);
     (isSmooth ? smooth_ : nearest_).bind(shared::kBlockTexturesUnit);
     if (hasFaceSampling_) {
@@ -107,6 +104,13 @@ void QuadResources::bind(const gpu::Buffer& drawRecords, bool isSmooth) {
         textures_.array.bind(shared::kNearestTexturesUnit);
         nearest_.bind(shared::kNearestTexturesUnit);
     }
+}
+
+void QuadResources::bind(const gpu::Buffer& drawRecords, bool isSmooth) {
+    bindTables();
+    bindTextures(isSmooth);
+    vertexArray_.setInstanceIntegers(shared::kDrawRecordAttribute, drawRecords,
+                                     sizeof(shared::DrawRecord) / sizeof(GLint), sizeof(shared::DrawRecord));
     vertexArray_.bind();
 }
 

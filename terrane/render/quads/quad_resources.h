@@ -31,8 +31,9 @@ class QuadResources {
     // Binds all resources, and the records of the draws to come (shared::DrawRecord). With `isSmooth`
     // textures are filtered.
     void bind(const gpu::Buffer& drawRecords, bool isSmooth);
-    // Binds only shapes and materials.
+    // Binds only shapes and materials, or only textures.
     void bindTables() const;
+    void bindTextures(bool isSmooth) const;
     const QuadTables& tables() const { return tables_; }
     std::size_t gpuBytes() const;
 

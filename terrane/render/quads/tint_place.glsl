@@ -7,7 +7,7 @@ layout(std140, binding = kTintBinding) uniform TintBlock {
     TintFrame tintFrame;
 };
 
-#if PASS == PASS_CORNERS
+#if PASS == PASS_CORNERS || PASS == PASS_RAYS
 vec4 outTintAt;
 float outTintShare;
 ivec2 outTintLevels;

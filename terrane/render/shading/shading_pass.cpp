@@ -5,6 +5,7 @@
 
 #include "terrane/render/corners/corners.h"
 #include "terrane/render/frame/frame.h"
+#include "terrane/render/rays/rays_pass.h"
 #include "terrane/render/shading/pixel_mask.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
@@ -121,6 +122,7 @@ MaybePass makeShade(FrameBuilder& build) {
     const PixelMask mask = TERRANE_TRY(PixelMask::make(build, MaskOf::Surfaces));
     const SharedTargets& targets = build.frame.targets;
     const TargetRef occlusion = targets.occlusion;
+    const bool castsRays = SunVariant::of(build.options(), build.features()).shadows == ShadowEdges::Rays;
     const gpu::Blending blending = fadesOverSky(build) ? gpu::Blending::Over : gpu::Blending::Off;
     std::vector<TargetRef> reads = {targets.surfaces, targets.depth};
     if (occlusion) reads.push_back(occlusion);
@@ -135,6 +137,7 @@ MaybePass makeShade(FrameBuilder& build) {
             if (drawsFar)
                 state.depthRange.x =
                     programs.distant ? shared::kDistantSurfacesDepth : shared::kFarSurfacesDepth;
+            if (castsRays) bindRays(context, false);
             shadedFramebuffer(context).bind();
             drawFullscreen(context, *programs.shade[context.isUnderWater() ? 1 : 0], state, textures);
             if (!drawsFar) return;

@@ -1,7 +1,9 @@
 // Light of an opaque surface that reaches the camera: premultiplied color, and coverage. SHADOW, OVER_SKY: see
 // shade.frag.glsl.
 // Needs lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
-#if SHADOW != SHADOW_NONE
+#if SHADOW == SHADOW_RAYS
+#include "terrane/render/rays/ray_shadow.glsl"
+#elif SHADOW != SHADOW_NONE
 #include "terrane/render/shadow/shadow_sample.glsl"
 #endif
 

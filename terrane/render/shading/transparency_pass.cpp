@@ -6,6 +6,7 @@
 #include "terrane/render/corners/corners.h"
 #include "terrane/render/effects/ambient_occlusion.h"
 #include "terrane/render/frame/frame.h"
+#include "terrane/render/rays/rays_pass.h"
 #include "terrane/render/shading/pixel_mask.h"
 #include "terrane/shared/bindings.h"
 
@@ -23,17 +24,21 @@ namespace {
 constexpr std::array<std::string_view, kMaxLayers> kLayerLabels = {"layer 1", "layer 2", "layer 3"};
 constexpr std::array<std::string_view, kMaxLayers> kDepthLabels = {"depth 1", "depth 2", "depth 3"};
 
-// With one sample a pixel the layers' quads are drawn once more to shade exactly the pixels that they cover.
 // A single layer has a background everywhere.
 bool showsAllLayers(const FrameBuilder& build) {
     return build.options().singleTransparencyLayer == 0;
 }
+bool castsRays(const FrameBuilder& build) {
+    return build.options().surfaces == SurfaceMethod::Rays;
+}
+// With one sample a pixel the layers' quads are drawn once more to shade exactly the pixels that they cover.
 bool shadesQuads(const FrameBuilder& build) {
-    return build.samples() == 1 && showsAllLayers(build);
+    return build.samples() == 1 && showsAllLayers(build) && !castsRays(build);
 }
 
 struct Peel {
-    const gpu::Program *first = nullptr, *next = nullptr;
+    const gpu::Program *first = nullptr, *next = nullptr;  // that draw quads
+    RayLayerPrograms rays;                                 // in place of these
     std::vector<TargetRef> depths;
     std::vector<std::shared_ptr<const gpu::Framebuffer>> framebuffers;
     TargetRef surfaceDepth;
@@ -52,6 +57,14 @@ struct Peel {
             copyTarget(*surfaceDepth, *depths[number], rect.min, rect.size());
     }
 
+    void drawFaces(FrameContext& context, const QuadDraw& quads, std::size_t number) const {
+        if (rays.first) return rays.draw(context, number == 0 ? nullptr : depths[number - 1].get());
+        (number == 0 ? first : next)->use();
+        quads.draw(context.pipeline,
+                   {.depthTest = gpu::DepthTest::Greater, .readsSampleId = number > 0 && samples > 1},
+                   mesh::AlphaClass::Blended);
+    }
+
     void drawLayer(FrameContext& context, const QuadDraw& quads, std::size_t number) const {
         framebuffers[number]->bind();
         // No layers are behind one without faces: the GPU skips their drawing, not the copy above.
@@ -60,10 +73,7 @@ struct Peel {
             gpu::TextureSet().add(shared::kTransparencyDepthUnit, depths[number - 1]->id()).bind();
         }
         glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn->ofLayer[number].id());
-        (number == 0 ? first : next)->use();
-        quads.draw(context.pipeline,
-                   {.depthTest = gpu::DepthTest::Greater, .readsSampleId = number > 0 && samples > 1},
-                   mesh::AlphaClass::Blended);
+        drawFaces(context, quads, number);
         glEndQuery(GL_ANY_SAMPLES_PASSED);
         if (number > 0) glEndConditionalRender();
     }
@@ -72,7 +82,7 @@ struct Peel {
         context.nearestDepth = depths[0].get();
         context.worldTextures.bind();
         const QuadDraw quads = context.quadDraw();
-        quads.bind();
+        if (!rays.first) quads.bind();
         for (std::size_t number = 0; number < depths.size(); ++number) {
             copyDepth(context, number);
             drawLayer(context, quads, number);
@@ -84,7 +94,8 @@ struct ShadeLayers {
     std::array<const gpu::Program*, 2> shade{};  // in air, under water
     OcclusionPrograms occlusion{};
     bool hasOcclusion = false, isDirect = false, drawsQuads = false, isBounded = true;
-    PixelMask mask;  // one sample, or a single layer: none
+    bool castsRays = false;  // for shadows
+    PixelMask mask;          // one sample, or a single layer: none
     std::shared_ptr<const gpu::Framebuffer>
         over;  // where quads are drawn: the scene or the image, with the first layer's depth
     TargetRef scene;
@@ -142,6 +153,7 @@ struct ShadeLayers {
             context.shadingTextures().add(context.frame.gbufferTextures()).add(layerTextures());
         if (!isDirect) textures.add(shared::kSceneUnit, scene->id());
         if (hasOcclusion) textures.add(shared::kOcclusionUnit, occlusion.visibility.target->id());
+        if (castsRays) bindRays(context, false);
         const gpu::Program& program = *shade[context.isUnderWater() ? 1 : 0];
         if (drawsQuads) {
             drawOverQuads(context, program, textures);
@@ -151,6 +163,15 @@ struct ShadeLayers {
         glEndConditionalRender();
     }
 };
+
+base::Result<void> makeQuadPrograms(FrameBuilder& build, Peel& peel) {
+    PeelVariant variant{build.samples(), false, build.features().hasFaceSampling, build.features().hasTint};
+    peel.first = TERRANE_TRY(build.programs.quads("shading/depth_peel", variant.defines()));
+    variant.isNext = true;
+    if (build.options().transparencyLayers > 1)
+        peel.next = TERRANE_TRY(build.programs.quads("shading/depth_peel", variant.defines()));
+    return {};
+}
 
 base::Result<void> makeLayerTargets(FrameBuilder& build, Peel& peel) {
     SharedTargets& targets = build.frame.targets;
@@ -174,12 +195,11 @@ base::Result<void> makeLayerTargets(FrameBuilder& build, Peel& peel) {
 MaybePass makePeel(FrameBuilder& build) {
     const RenderOptions& options = build.options();
     if (options.transparencyLayers == 0 || options.shading == Shading::Corners) return std::nullopt;
-    PeelVariant variant{build.samples(), false, build.features().hasFaceSampling, build.features().hasTint};
     Peel peel;
-    peel.first = TERRANE_TRY(build.programs.quads("shading/depth_peel", variant.defines()));
-    variant.isNext = true;
-    if (options.transparencyLayers > 1)
-        peel.next = TERRANE_TRY(build.programs.quads("shading/depth_peel", variant.defines()));
+    if (castsRays(build))
+        peel.rays = TERRANE_TRY(RayLayerPrograms::make(build));
+    else
+        TERRANE_TRY(makeQuadPrograms(build, peel));
     peel.size = build.frame.spec.size;
     peel.samples = build.samples();
     peel.isBounded = showsAllLayers(build);
@@ -197,9 +217,12 @@ MaybePass makePeel(FrameBuilder& build) {
                 .writes = std::move(writes),
                 .record = [peel](FrameContext& context) { peel.record(context); },
                 .isNeeded =
-                    [size = peel.size](FrameContext& context) {
-                        context.blendedRects = context.meshSections.blendedRects(
-                            cameraChunk(context.input.camera), context.view.viewProjection, size);
+                    [size = peel.size, hasRays = castsRays(build)](FrameContext& context) {
+                        if (hasRays)
+                            context.blendedRects = {{{0, 0}, size}};
+                        else
+                            context.blendedRects = context.meshSections.blendedRects(
+                                cameraChunk(context.input.camera), context.view.viewProjection, size);
                         return !context.blendedRects.empty();
                     }};
 }
@@ -223,6 +246,7 @@ MaybePass makeShadeLayers(FrameBuilder& build) {
         .light = options.light == LightSampling::Smooth ? LightDetail::Smooth : LightDetail::Classic,
         .drawsQuads = pass.drawsQuads,
         .isDirect = pass.isDirect};
+    pass.castsRays = variant.sun.shadows == ShadowEdges::Rays;
     for (const bool isUnderWater : {false, true}) {
         variant.isUnderWater = isUnderWater;
         pass.shade[isUnderWater ? 1 : 0] = TERRANE_TRY(
