@@ -5,14 +5,14 @@
 #include <map>
 #include <random>
 
-#include "terrane/content/built_in.h"
+#include "tests/world/content_blocks.h"
 
 namespace terrane::game {
 namespace {
 
 class PlayerItemsTest : public testing::Test {
   protected:
-    const world::BlockRegistry blocks_ = content::loadBlocks().value();
+    const world::BlockRegistry& blocks_ = contentBlocks();
     const world::ItemTable& table_ = blocks_.items();
 };
 

@@ -12,7 +12,7 @@ namespace terrane::game {
 namespace {
 
 constexpr world::BlockPos kGround{5, 5, kGroundHeight - 1}, kAbove{5, 5, kGroundHeight},
-    kChest{7, 5, kGroundHeight};
+    kItemChest{7, 5, kGroundHeight};
 
 class SurvivalTest : public SessionTest {
   protected:
@@ -30,10 +30,10 @@ class SurvivalTest : public SessionTest {
     }
     EditResult breakBlock(world::BlockPos pos) { return set(pos, "air"); }
     void putChest() {
-        session_.edit({kNoPlayer, kChest, world::SetBlock{contentBlock("chest")}, std::nullopt});
+        session_.edit({kNoPlayer, kItemChest, world::SetBlock{contentBlock("chest")}, std::nullopt});
     }
     int count(const char* item) { return world::countItems(session_.itemsOf(kLocalPlayer).slots, item); }
-    world::Inventory chest() { return itemsOf(session_.world(), session_.blocks(), kChest).value(); }
+    world::Inventory chest() { return itemsOf(session_.world(), session_.blocks(), kItemChest).value(); }
 
     int changes_ = 0;
     Subscription changed_;
@@ -98,25 +98,25 @@ TEST_F(SurvivalTest, ToolsOfCreativeAreRefused) {
     EXPECT_EQ(session_.undoOrRedo(kLocalPlayer, HistoryWay::Undo).outcome, UndoResult::Outcome::NotAllowed);
     putChest();
     const world::Inventory gold{{"gold_ore", 99}};
-    EXPECT_EQ(putItems(session_, kLocalPlayer, kChest, gold), EditResult::Creative);
+    EXPECT_EQ(putItems(session_, kLocalPlayer, kItemChest, gold), EditResult::Creative);
     session_.setMode(kLocalPlayer, Mode::Creative);
-    EXPECT_EQ(putItems(session_, kLocalPlayer, kChest, world::Inventory(27)), EditResult::Applied);
+    EXPECT_EQ(putItems(session_, kLocalPlayer, kItemChest, world::Inventory(27)), EditResult::Applied);
     EXPECT_EQ(session_.undoOrRedo(kLocalPlayer, HistoryWay::Undo).outcome, UndoResult::Outcome::Done);
 }
 
 TEST_F(SurvivalTest, StacksMoveBetweenPlayerAndChest) {
     putChest();
     give("coal", 50);
-    const SlotPlace own{{}, 0}, other{kChest, 3};
+    const SlotPlace own{{}, 0}, other{kItemChest, 3};
     EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{own, other, 20}), EditResult::Applied);
     EXPECT_EQ(count("coal"), 30);
     EXPECT_EQ(chest()[3], (world::ItemStack{"coal", 20}));
-    EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{other, {kChest, 26}, 20}), EditResult::Applied);
+    EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{other, {kItemChest, 26}, 20}), EditResult::Applied);
     EXPECT_EQ(chest()[26].count, 20);
     EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{other, own, 1}), EditResult::Unchanged);
-    EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{{kChest, 27}, own, 1}), EditResult::BadData);
+    EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{{kItemChest, 27}, own, 1}), EditResult::BadData);
     EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{own, {kGround, 0}, 1}), EditResult::Conflict);
-    EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{{kChest, 26}, {{}, 44}, 99}), EditResult::Applied);
+    EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{{kItemChest, 26}, {{}, 44}, 99}), EditResult::Applied);
     EXPECT_EQ(count("coal"), 50);
     session_.setPlayer(kLocalPlayer, {.position = {100, 5, kGroundHeight}});
     EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{own, other, 1}), EditResult::OutOfReach);
@@ -127,7 +127,7 @@ TEST_F(SurvivalTest, AGuestTakesNothing) {
     putChest();
     give("coal", 5);
     session_.permissions.roles[kLocalPlayer] = Role::Guest;
-    EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{{{}, 0}, {kChest, 0}, 5}), EditResult::NotAllowed);
+    EXPECT_EQ(session_.act(kLocalPlayer, MoveStack{{{}, 0}, {kItemChest, 0}, 5}), EditResult::NotAllowed);
     EXPECT_EQ(count("coal"), 5);
     EXPECT_EQ(chest(), world::Inventory(27));
 }

@@ -126,7 +126,6 @@ TEST_F(ServerItems, TwoPlayersShareAChest) {
     session.give(idOf(server, "Bob"), {"iron_pick", 2});
     step(server, {&ann, &bob});
     std::mt19937 random(3);
-    bool wasUsed = false;
     for (int k = 0; k < 300; ++k) {
         for (TestPlayer* player : {&ann, &bob}) {
             game::SlotPlace own{{}, static_cast<std::uint16_t>(random() % 5)};
