@@ -43,16 +43,21 @@ TEST_F(RayFramesTest, RaysAndQuadsShowTheSame) {
     for (int k = 0; k < atDepth(6, 100); ++k) {
         const world::ChunkPos pos{within(300), within(300)};
         blocks.forget();
-        const render::Camera camera = bench::randomCamera(blocks.whole(pos), pos, contentBlocks(), random);
+        render::Camera camera = bench::randomCamera(blocks.whole(pos), pos, contentBlocks(), random);
+        if (k % 3 == 0) {  // toward the horizon
+            camera.position.z = 150;
+            camera.pitch = -10;
+        }
         const render::FaceAgreement found = compareFaces(seen(*quads, camera), seen(*rays, camera),
                                                          seen(*rays, camera, render::kRaysAcrossPixel));
-        EXPECT_LE(found.others, found.pixels / 200)
+        // Toward the horizon most faces are narrower than a pixel.
+        EXPECT_LE(found.others, found.pixels / 100)
             << fmt::format("--at={},{},{} --look {},{}: {}", camera.position.x, camera.position.y,
                            camera.position.z, camera.yaw, camera.pitch, textOf(found));
         sum += found;
     }
     fmt::print("{}\n", textOf(sum));
-    EXPECT_LE(sum.others, sum.pixels / 2000);
+    EXPECT_LE(sum.others, sum.pixels / 500);
     EXPECT_GT(sum.centers, sum.pixels * 98 / 100);
     EXPECT_GT(sum.shown, sum.pixels / 2);
     EXPECT_GT(sum.tiles, 0);
