@@ -22,6 +22,8 @@ COLUMNS, ROWS = 96, 54  # of images of depths
 FAR = 16384
 BANDS = (0, 60, 250, 1000, 4000, FAR)  # blocks: depths that an image should show side by side
 THUMBNAIL = (320, 180)
+CAVE_ROWS = 32  # and columns: rays through blocks are slower
+CAVE_REACH = 112  # blocks from the middle of a room
 
 
 # Land -----------------------------------------------------------------------------------------------------------------
@@ -160,7 +162,7 @@ def towers(land):
 
 
 def meadow_ground(land):
-    return land.is_biome("alpine meadow") & land.is_block("grass", "grass_tuft", "oxeye_daisy", "bluebell", "poppy", "heather")
+    return land.is_biome("alpine meadow") & land.is_block("grass")
 
 
 def meadows(land):
@@ -168,10 +170,22 @@ def meadows(land):
     return np.where(meadow_ground(land), grown * (relief(land, 3000) - 500), 0).clip(0)
 
 
+def flower_beds(land):
+    """Grass without gaps: a third of it has flowers."""
+    return np.where(meadow_ground(land), share_around(meadow_ground(land), land.cells_of(12)), 0)
+
+
 def river_mouths(land):
     sea = share_around(land.is_sea, land.cells_of(500))
     wet = share_around(rivers(land) & (land.top < 4), land.cells_of(250))
     return np.where(rivers(land) & (land.top < 4) & (sea > 0.1), wet * np.minimum(sea, 0.5), 0)
+
+
+def arms(land):
+    """Shores between water and flats at the level of the sea, where many are side by side: arms of deltas."""
+    flat = ~land.is_water & (land.top < 3)
+    shore = np.logical_or.reduce([flat & shifted(land.is_water, *side) for side in ((0, 1), (1, 0), (0, -1), (-1, 0))])
+    return share_around(shore, land.cells_of(70)) * (share_around(land.is_sea, land.cells_of(250)) > 0.05)
 
 
 # Kinds ----------------------------------------------------------------------------------------------------------------
@@ -229,11 +243,14 @@ KINDS = {
                     criteria=wants(wanted=(0.03, 0.1, 0.5, 0.8), open=(0.2, 0.7, 1, 2))),
     "karst": Kind("a bay with towers of limestone", towers, 0.3, (150, 600), (5, 25), stands="water", aim=-10,
                   wanted=lambda land: land.is_block("limestone"), criteria=wants(wanted=(0.01, 0.05, 0.4, 0.7))),
-    "meadow": Kind("an alpine meadow", meadows, 0.4, (60, 250), (3, 8), stands="land", aim=30,
-                   wanted=meadow_ground, criteria=wants(wanted=(0.05, 0.2, 0.6, 0.8), rough=(1, 4, 30, 60))),
-    "cave": Kind("a great cave", lambda land: np.zeros_like(land.top), 0.5, (0, 0), (0,)),  # find_caves()
-    "river": Kind("a river or delta at dusk", river_mouths, 0.775, (200, 700), (40, 90), yaw=0, aim=-10,
-                  criteria=wants(wanted=(0.01, 0.06, 0.4, 0.7))),
+    "meadow": Kind("an alpine meadow with flowers", meadows, 0.4, (8, 20), (2, 4), (256, 1), flower_beds, stands="land", aim=2,
+                   highest_ground=560, wanted=meadow_ground,  # below the clouds
+                   criteria=wants(wanted=(0.05, 0.25, 0.55, 0.75), rough=(1, 4, 30, 60), near=(0, 0.15, 0.45, 0.7))),
+    "cave": Kind("a great cave with crystals, fungi and lava", None, 0.5, (0, 0), (0,),  # find_caves()
+                 criteria={"bands": (0, 3, 5, 6), "near": (-1, 0, 0.15, 0.4), "glow": (0, 0.02, 0.08, 0.2),
+                           "glowing": (0, 3, 3, 4), "far": (0, 50, 100, 200)}),
+    "river": Kind("a delta at dusk", river_mouths, 0.775, (150, 450), (40, 80), (768, 4), arms, yaw=0, aim=-10,
+                  wanted=lambda land: arms(land) > 0.12, criteria=wants(wanted=(0.02, 0.2, 0.7, 0.9))),
 }
 
 # Of small images.
@@ -379,12 +396,11 @@ def find_cameras(kind, world, coarse, count):
     return sorted(found, key=lambda entry: -entry[0])
 
 
-def find_caves(world, count):
-    """Cameras in the highest rooms under the ground, along the longest line of sight, those with light first."""
+def great_rooms(world, count):
+    """Places in the highest rooms under the ground: height, and x, y, z of the lowest air; none near another."""
     air = world.block_id("air")
-    places = [(cx, cy) for cx in range(-60, 60, 3) for cy in range(-60, 60, 3)]
     rooms = []
-    for cx, cy in places:
+    for cx, cy in ((cx, cy) for cx in range(-60, 60, 4) for cy in range(-60, 60, 4)):
         is_open = world.chunk(cx, cy) == air
         ground = is_open.shape[0] - 1 - np.argmax(~is_open[::-1], axis=0)
         roofed = is_open & (np.arange(is_open.shape[0])[:, None, None] < ground - 6)
@@ -394,26 +410,81 @@ def find_caves(world, count):
             if run.max() > best:
                 best = int(run.max())
                 y, x = np.unravel_index(run.argmax(), run.shape)
-                at = (16 * cx + int(x), 16 * cy + int(y), world.bottom + int(z) - best // 2)
+                at = (16 * cx + int(x), 16 * cy + int(y), world.bottom + int(z) - best + 1)
         if at and best >= 12:
             rooms.append((best, at))
+    apart = []
+    for height, at in sorted(rooms, reverse=True):
+        if len(apart) < count and all(math.dist(at, other) > 72 for _, other in apart):
+            apart.append((height, at))
+    return apart
+
+
+def cast_in_cave(blocks, is_open, start, camera, reach):
+    """Of rays that fill the image: distances to blocks, `reach` without one, and the blocks [z, y, x] that are hit."""
+    half = math.tan(math.radians(FIELD_OF_VIEW / 2))
+    up, across = (v.ravel() * half for v in np.mgrid[1 - 1 / CAVE_ROWS:-1:-2 / CAVE_ROWS, -1 + 1 / CAVE_ROWS:1:2 / CAVE_ROWS])
+    across = across * COLUMNS / ROWS
+    yaw, pitch = math.radians(camera.yaw), math.radians(camera.pitch)
+    ahead, rise = math.cos(pitch) - up * math.sin(pitch), math.sin(pitch) + up * math.cos(pitch)
+    way = np.stack([rise, ahead * math.sin(yaw) - across * math.cos(yaw), ahead * math.cos(yaw) + across * math.sin(yaw)])
+    way /= np.sqrt((way**2).sum(axis=0))
+    depth, hit = np.full(rise.size, float(reach)), np.zeros(rise.size, dtype=blocks.dtype)
+    rays = np.arange(rise.size)  # that have hit nothing yet
+    for distance in np.arange(0.5, reach):
+        at = np.floor(np.array(start)[:, None] + way[:, rays] * distance).astype(int)
+        inside = ((at >= 0) & (at < np.array(blocks.shape)[:, None])).all(axis=0)
+        rays, (z, y, x) = rays[inside], at[:, inside]
+        closed = ~is_open[z, y, x]
+        depth[rays[closed]], hit[rays[closed]] = distance, blocks[z[closed], y[closed], x[closed]]
+        rays = rays[~closed]
+    return depth, hit
+
+
+@dataclasses.dataclass(frozen=True)
+class CaveBox:
+    """Blocks around a great room, [z, y, x] from a corner."""
+    corner: tuple
+    blocks: np.ndarray
+    is_open: np.ndarray
+    glowing: tuple  # numbers of blocks: crystals, fungi, lava
+
+
+def cave_cameras(box, room, height):
+    """Cameras at the side of a room that look across its highest place."""
+    x, y, z = (v - c for v, c in zip(room, box.corner))
+    for turn in range(0, 360, 20):
+        ahead = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+        for head in (height // 4, height // 2):
+            back = 0
+            while back < CAVE_REACH - 2 and box.is_open[z + head, y - round(back * ahead[1]), x - round(back * ahead[0])]:
+                back += 1
+            back = max(0, back - 4)
+            place = room[0] + 0.5 - back * ahead[0], room[1] + 0.5 - back * ahead[1], room[2] + head + 0.5
+            yield Camera(tuple(round(v, 1) for v in place), float(turn), -8.0)
+
+
+def cave_values(box, camera):
+    """What an image of depths of a cave shows, for its criteria."""
+    start = [v - c for v, c in zip(camera.position, box.corner)][::-1]
+    depth, hit = cast_in_cave(box.blocks, box.is_open, start, camera, 2 * CAVE_REACH)
+    shares = [float(np.isin(hit, blocks).mean()) for blocks in box.glowing]
+    bands = sum(np.mean((depth >= low) & (depth < 2 * low)) > 0.05 for low in (8, 16, 32, 64, 128))
+    return {"bands": bands, "near": np.mean(depth < 8), "far": float(np.percentile(depth, 90)), "glow": sum(shares),
+            "glowing": sum(min(1, share / 0.01) for share in shares)}
+
+
+def find_caves(kind, world, count):
+    """The best camera of each great room, by what its image of depths shows; the best first."""
+    number = {name: k for k, name in enumerate(world.block_names)}
+    glowing = (number["crystal"], number["crystal_rock"]), (number["glowing_mushroom"],), (number["lava"],)
     found = []
-    for height, (x, y, z) in sorted(rooms, reverse=True)[:count]:
-        reach = 96
-        blocks = world.blocks((x - reach, y - reach, z, x + reach, y + reach, z + 1))[0] == air
-        steps = np.arange(1, reach)
-        sights = []
-        for turn in range(0, 360, 10):
-            across, ahead = steps * math.cos(math.radians(turn)), steps * math.sin(math.radians(turn))
-            line = blocks[(reach + ahead).astype(int), (reach + across).astype(int)]
-            sights.append((int(line.argmin()) if not line.all() else reach, turn))
-        sight, turn = max(sights)
-        back = next((s for s, t in sights if t == (turn + 180) % 360), 0)
-        light = world.light((x - 24, y - 24, z - 12, x + 24, y + 24, z + 12)).max(axis=3)
-        is_lit = min(1.0, float(np.mean(light > 4)) / 0.2)
-        x, y = (v - max(0, back - 3) * f(math.radians(turn)) for v, f in ((x, math.cos), (y, math.sin)))
-        found.append((min(1.0, height / 60) * min(1.0, (sight + back) / 80) * is_lit,
-                      Camera((round(x, 1), round(y, 1), z + 0.5), float(turn), -4.0)))
+    for height, (x, y, z) in great_rooms(world, count):
+        corner = x - CAVE_REACH, y - CAVE_REACH, max(z - 16, world.bottom)
+        blocks = world.blocks(corner + (x + CAVE_REACH, y + CAVE_REACH, z + 140))
+        box = CaveBox(corner, blocks, blocks == number["air"], glowing)
+        tried = [(score(cave_values(box, camera), kind.criteria), camera) for camera in cave_cameras(box, (x, y, z), height)]
+        found.append(max(tried, key=lambda entry: entry[0]))
     return sorted(found, key=lambda entry: -entry[0])
 
 
@@ -443,7 +514,7 @@ def run(arguments):
     coarse = Land(world, (0, 0), arguments.radius, 32)
     for name in arguments.kinds or KINDS:
         kind = KINDS[name]
-        found = (find_caves(world, 8 * arguments.drawn) if name == "cave" else find_cameras(
+        found = (find_caves(kind, world, 3 * arguments.drawn) if name == "cave" else find_cameras(
             kind, world, coarse, arguments.subjects))[:arguments.drawn]
         views = []
         for fit, camera in found:
