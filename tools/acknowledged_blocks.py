@@ -2,7 +2,7 @@
 import json
 import subprocess
 
-CHUNK, HEIGHT = 16, 256
+CHUNK = 16
 
 
 def read_kept(*files):
@@ -23,12 +23,17 @@ def read_world(program, world, positions, folder):
     file = folder / "blocks.npy"
     subprocess.run([program, "dump", "--what", "blocks", "--world", world, f"--area={x0},{y0},{x1},{y1}", "-o", file],
                    check=True, stdout=subprocess.DEVNULL)
+    # An exit code of 1 tells of damage.
+    checked = subprocess.run([program, "check", world, "--json"], check=False, stdout=subprocess.PIPE).stdout
+    bottom = json.loads(checked)["bottom"]
     types = json.loads(subprocess.run([program, "blocks", "--json"], check=True, stdout=subprocess.PIPE).stdout)
     names = {block["id"]: block["name"] for block in types}
     data = file.read_bytes()
     ids = memoryview(data)[10 + int.from_bytes(data[8:10], "little"):].cast("H")  # [x][y][z]
-    depth = (y1 - y0) * CHUNK
-    return {(x, y, z): names[ids[((x - x0 * CHUNK) * depth + y - y0 * CHUNK) * HEIGHT + z]] for x, y, z in positions}
+    width, depth = (x1 - x0) * CHUNK, (y1 - y0) * CHUNK
+    height = len(ids) // (width * depth)
+    return {(x, y, z): names[ids[((x - x0 * CHUNK) * depth + y - y0 * CHUNK) * height + z - bottom]]
+            for x, y, z in positions}
 
 
 def lost_blocks(program, world, kept, folder):

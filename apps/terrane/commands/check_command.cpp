@@ -29,6 +29,8 @@ nlohmann::json toJson(const store::CheckReport& report) {
             {"seed", report.identity.seed},
             {"generator", report.identity.generator},
             {"generator_version", report.identity.generatorVersion},
+            {"bottom", report.identity.heights.bottom},
+            {"top", report.identity.heights.top},
             {"chunks", report.chunks},
             {"edited_chunks", report.editedChunks},
             {"tiles", report.tiles},
