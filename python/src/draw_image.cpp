@@ -15,6 +15,7 @@
 #include "terrane/render/frame/renderer.h"
 #include "terrane/render/quads/draw_check.h"
 #include "terrane/view/camera_path.h"
+#include "terrane/view/eye.h"
 #include "terrane/view/gpu_back_ends.h"
 #include "terrane/view/world_view.h"
 
@@ -180,9 +181,14 @@ class SceneDrawer {
         const render::Camera camera = view::cameraOf(request.pose, request.fieldOfView);
         view::loadAll(session, scene_->view, camera, request.viewDistance, Clock::now());
         renderer.completeLand();
-        renderer.draw({camera, world::environmentAt(request.timeDay),
-                       view::fogDistance(scene_->view.visibleDistance()), 0, render::View::Color,
-                       game::waterAbove(session, camera.position)});
+        render::FrameInput input{camera,
+                                 world::environmentAt(request.timeDay),
+                                 view::fogDistance(scene_->view.visibleDistance()),
+                                 0,
+                                 render::View::Color,
+                                 game::waterAbove(session, camera.position)};
+        input.exposure = view::exposureFor(view::seenLight(session, input, render::aspectOf(request.size)));
+        renderer.draw(input);
         return renderer.readImage();
     }
 

@@ -105,8 +105,10 @@ void closeSide(const world::Chunk& chunk, std::size_t side, const light::ChunkLi
                 world::BlockId& roof = roofs[static_cast<std::size_t>(k)];
                 const world::BlockIndex index = indexOf(k, z);
                 const world::BlockId block = chunk.block(index);
-                if (block != world::kAir && blocks.type(block).opaqueCube) {
-                    roof = block;
+                const world::BlockType& type = blocks.type(block);
+                if (block != world::kAir && type.opaqueCube) {
+                    // Crystals in a roof are no columns down to the floor.
+                    if (roof == world::kAir || type.emission == std::array<std::uint8_t, 3>{}) roof = block;
                 } else if (roof != world::kAir && light::levelOf(light.at(index), light::kDaylight) == 0) {
                     if (!closed) closed = std::make_shared<world::Chunk>(chunk);
                     closed->setBlock(index, roof);

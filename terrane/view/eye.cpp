@@ -57,13 +57,16 @@ glm::vec3 lightAlong(const game::Session& session, const world::Ray& ray,
     const auto hit = world::castRay(session.world(), session.blocks(), ray, kReach);
     glm::vec3 normal(0, 0, 1);
     world::BlockPos before = world::blockOf(ray.origin + kReach * ray.direction);
+    glm::vec3 glow(0);
     if (hit) {
+        const auto& emission = session.blocks().type(session.world().block(hit->block)).emission;
+        glow = glm::vec3(emission[0], emission[1], emission[2]) / (light::kMaxLevel * kMeanAlbedo);
         before = world::adjacent(hit->block, hit->face);
         normal = {before.x - hit->block.x, before.y - hit->block.y, before.z - hit->block.z};
     }
     const light::LightValue levels = session.pipeline().lightAt(before).value_or(light::kFullDaylight);
     const bool isSky = !hit && ray.direction.z > 0 && light::levelOf(levels, 3) == light::kMaxLevel;
-    return isSky ? glm::vec3(lightOfSky(environment)) : lightOn(normal, levels, environment);
+    return isSky ? glm::vec3(lightOfSky(environment)) : glow + lightOn(normal, levels, environment);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace terrane::view {
 // not drawn from behind and near ones are cut open; nothing of one in the open.
 std::optional<std::string> blockAtCamera(const game::Session& session, const render::Camera& camera);
 
-// Light on surfaces in view, along rays that fill the image.
+// Light on surfaces in view, and of those that glow, along rays that fill the image.
 struct SeenLight {
     float luminance = 1;  // as in world::Environment; the mean of logarithms
     glm::vec3 color{1};   // of luminance 1; sun, moon and sky count as white

@@ -319,7 +319,8 @@ const std::vector<ClientMessage>& oneOfEach() {
                                                      Pong{0},
                                                      AskPlayers{},
                                                      Leave{},
-                                                     AskPack{0, 0}};
+                                                     AskPack{0, 0},
+                                                     ItemCommand{1, game::SelectSlot{3}}};
     return messages;
 }
 

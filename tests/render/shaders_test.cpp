@@ -200,15 +200,16 @@ TEST(ShaderMacros, ThoseThatNobodyDefinesAreFound) {
 
 class ShaderPrograms : public gpu::GlTest {};
 
-// Some have one of the same name. Quads have a vertex shader variant for each PASS; layers are shaded over
-// quads or over the screen.
+// Some have one of the same name. Quads have a vertex shader variant for each PASS but that of rays, which
+// cover the screen; layers are shaded over quads or over the screen.
 std::string vertexShaderFor(std::string_view path, const gpu::ShaderDefines& defines) {
     std::string own(path.substr(0, path.rfind(".frag")));
     own += ".vert.glsl";
     if (std::ranges::find(embedded::shaders(), own, &base::EmbeddedFile::path) != embedded::shaders().end())
         return own;
     if (path.find("/figure") != std::string_view::npos) return "terrane/render/figures/figure.vert.glsl";
-    const bool isOfQuads = std::ranges::any_of(defines, [](const auto& d) { return d.first == "PASS"; });
+    const bool isOfQuads = std::ranges::any_of(
+        defines, [](const auto& d) { return d.first == "PASS" && d.second != std::to_string(PASS_RAYS); });
     return isOfQuads && !has(defines, "QUADS", "0") ? "terrane/render/quads/quad.vert.glsl"
                                                     : "terrane/render/frame/fullscreen.vert.glsl";
 }

@@ -49,6 +49,7 @@ TEST(TileBorders, CavesAreClosedTowardTiles) {
     fill({0, 0, 0}, {16, 16, 60}, stone);
     fill({0, 0, 60}, {16, 16, kGround}, dirt);
     fill({0, 4, 30}, {16, 9, 70}, world::kAir);
+    fill({15, 5, 70}, {16, 7, 71}, contentBlock("crystal_rock"));  // in the roof: it does not close the cave
     fill({12, 0, 90}, {16, 3, 98}, world::kAir);
     fill({12, 0, 98}, {13, 3, kGround}, world::kAir);
     fill({4, 12, 20}, {12, 15, 25}, world::kAir);

@@ -100,6 +100,16 @@ TEST_F(EyeTest, ColoredLampsGetWhiterWithoutGettingBrighter) {
     EXPECT_GT(adapted.x * seen.color.x, adapted.z * seen.color.z) << "red stays red";
 }
 
+TEST_F(EyeTest, WhatGlowsIsBright) {
+    for (int x = 5; x < 12; ++x)
+        for (int y = 5; y < 12; ++y) set({x, y, 44}, "crystal_rock");
+    settle();
+    render::FrameInput up = frame(kInRoom, kNoon);
+    const SeenLight aside = seenLight(session_, up, kScreen);
+    up.camera.pitch = 70;
+    EXPECT_GT(seenLight(session_, up, kScreen).luminance, 2 * aside.luminance);
+}
+
 TEST_F(EyeTest, AdaptsInTimeWhateverTheFrames) {
     const auto after = [&](int frames) {
         Eye eye;

@@ -16,6 +16,7 @@ class ItemsTest : public WindowTest {
         return play("home");
     }
     static void takeMouse(Program& program) {
+        program.untilDrawn();
         program.tap(MouseButton::Left);
         program.until("the mouse is taken", [&] { return program.game().input.isCaptured; });
     }

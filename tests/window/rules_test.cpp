@@ -1,4 +1,5 @@
 // Rules of packs in a world of one's own: the chat, commands, refusals.
+#include "terrane/game/chat.h"
 #include "tests/window/window_fixture.h"
 
 namespace terrane::app {
@@ -40,7 +41,9 @@ TEST_F(RulesTest, AnswerInTheChatAndRefuse) {
     say(program, "/hello");
     program.until("the answer", [&] { return program.isShown("chat line", "hello"); });
     say(program, "/nothing");
-    program.until("the commands", [&] { return program.isShown("chat line", "/hello: answers"); });
+    const std::string help = game::chatHelp(program.session().chatCommands);
+    EXPECT_NE(help.find("/hello: answers"), std::string::npos) << help;
+    program.until("the commands", [&] { return program.isShown("chat line", help); });
     EXPECT_TRUE(program.quit());
 }
 

@@ -40,7 +40,9 @@ void main() {
     color += 1.2 * textureLod(godRays, at, 0.0).r * (frame.lightColor.rgb + 0.3 * frame.glowColor.rgb);
 #endif
 #if BLOOM == 1
-    color += 4.0 * textureLod(bloom, at, 0.0).rgb / frame.exposure.rgb;
+    // Strong around small lights, and no fog where all shines.
+    vec3 spread = textureLod(bloom, at, 0.0).rgb;
+    color += spread * (4.0 / (1.0 + 8.0 * max(max(spread.r, spread.g), spread.b))) / frame.exposure.rgb;
 #endif
     outColor = vec4(screenColor(color, pixel), 1.0);
 }
