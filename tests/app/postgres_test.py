@@ -107,6 +107,16 @@ class Refused(Postgres):
         _server.query(f"UPDATE {self.schema}.terrane_format SET format = 99")
         self.assertOneLine(self.url, "in format 99")
 
+    def test_survival_is_refused_and_not_kept(self):
+        serve = ("serve", "--world", self.url, "--address", "127.0.0.1", "--port", "0")
+        for options in (("--mode", "survival"), ("--mode", "survival")):
+            self.assertRefused(run(*serve, *options), "shared between servers")
+        server = support.RunningProgram(self.folder, *serve)
+        self.addCleanup(server.clean_up)
+        server.wait_for(r"on port (\d+)")
+        server.say("stop")
+        self.assertEqual(server.process.wait(support.HANG_SECONDS), 0, server.output())
+
     def test_an_older_format_is_brought_to_the_newest(self):
         self.succeed("generate", "--radius", "1", "--generator", "continents", "--world", self.url)  # of 256 layers
         newer = ("jobs", "work_areas", "workers", "work_state", "texts", "players", "claims", "edits", "history", "online",

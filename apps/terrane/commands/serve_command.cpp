@@ -66,6 +66,7 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     const auto files = TERRANE_TRY(net_postgres::serverFilesOf(world, options.listen.port));
     TERRANE_TRY(readSettings(options, files, command));
     TERRANE_TRY(checkOutputs(command));
+    options.server.mode = game::modeNamed(options.mode);
     if (options.isReadOnly) options.server.newcomers = game::Role::Guest;
     TERRANE_TRY(checkMapSite(options.map));
     auto statistics = TERRANE_TRY(net::ServerStatistics::open(options.statistics));
@@ -73,7 +74,6 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
                                                    store::WorldSharing::Servers));
     game::SessionParts& parts = opened.parts;
     const auto content = TERRANE_TRY(net::serverContent(opened.content));
-    if (const auto mode = game::modeNamed(options.mode)) game::saveMode(*parts.store, *mode);
     // Clients generate unedited chunks themselves: the server needs them rarely, and regenerates them.
     parts.storesGenerated = false;
     auto records = TERRANE_TRY(net_postgres::openRecords(world, *parts.blocks));

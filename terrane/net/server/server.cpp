@@ -171,11 +171,12 @@ base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
                                                       const ServerSettings& settings) {
     auto server = std::make_unique<ServerState>(parts, settings);
     game::Session& session = parts.session;
-    session.mode = game::loadMode(session.store());
+    session.mode = settings.mode.value_or(game::loadMode(session.store()));
     if (parts.records.shared() && session.mode == game::Mode::Survival)
         return base::fail(base::ErrorCode::BadInput,
                           "survival: the world is shared between servers in PostgreSQL, where items are not "
                           "kept with the blocks; serve it from a file, or with --mode creative");
+    if (settings.mode) game::saveMode(session.store(), *settings.mode);
     listen(*server);
     session.together = [&records = parts.records] { return records.together(); };
     TERRANE_TRY(checkWorldOf(parts.records, session.store().identity()));

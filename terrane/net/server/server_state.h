@@ -20,6 +20,7 @@
 
 #include "terrane/base/job_system.h"
 #include "terrane/game/permissions.h"
+#include "terrane/game/player_items.h"
 #include "terrane/game/session.h"
 #include "terrane/net/server/edit_log.h"
 #include "terrane/net/server/edited_chunks.h"
@@ -41,6 +42,7 @@ struct ServerSettings {
     double maxSpeed = 120;                      // blocks per second; flying reaches 60, falling 55
     int spawnRadius = 0;                        // blocks around the spawn where new players appear
     game::Role newcomers = game::Role::Player;  // Guest: may look and chat only
+    std::optional<game::Mode> mode = {};        // of the world from now on; none: as before
     double dayMinutes = 20;
     std::size_t maxFillBlocks = 65536;         // in one command
     std::size_t maxPlacesOfPlayer = 5;         // named places; operators are not limited
